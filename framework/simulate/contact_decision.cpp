@@ -223,14 +223,15 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
     if (problem_.who.empty()) return {LcpOutcome::solved, 0};
     problem_.prepare(system_);
   } while (stop_with_others(changes) || end_drift(state, changes, jumped));
-  for (;;) {
+  for (std::vector<Participant> begin = nearby;;) {
     system_.set_modes(modes_);
     system_.move_to(state.t, state.q, state.v);
     accelerate_participants();
     if (has_bearings()) return decide_with_bearings(state);
-    const complementarity::ContactSolution solution = take_verdicts(state, nearby);
+    const complementarity::ContactSolution solution = take_verdicts(state, begin);
     if (solution.outcome != LcpOutcome::solved) return solution;
     if (share_within_bounds(state)) return solution;
+    if (rounds_of_bounds_ > 0) begin = problem_.who;
     open_all(modes_);
   }
 }

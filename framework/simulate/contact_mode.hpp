@@ -106,8 +106,9 @@
 //     and hold by their friction whatever pushes. Springs do not press so (complementarity/shares/springs_at_rest). If
 //     forces as springs do not hold a group at rest, the friction of its contacts is bounded by their springs' normal
 //     forces, those at their bounds let go, and all modes are decided again: until the normal forces in the modes
-//     decided are those that bound the friction. So a clearance of 0 is the limit of small ones, and rigid contacts
-//     move as stiff compliant ones. Where this comes to no end (a stack that has locked while it slid), rest stays.
+//     decided are those that bound the friction, up to their errors if the modes stay. So a clearance of 0 is the limit
+//     of small ones, and rigid contacts move as stiff compliant ones. Where this comes to no end (a stack that has
+//     locked while it slid), rest stays.
 //
 // `rebound: constrained` makes candidates of contacts that separate at e u-. `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0. `onset: next_step` only changes when an event is seen.
@@ -374,6 +375,7 @@ class ContactModes {
   bool cut_short_ = false;                   // some of the last impacts had not ended (ImpactLaws::cut_short)
   int rounds_of_bounds_ = 0;                 // rule 15, in the last decision
   std::vector<Participant> without_bounds_;  // before the first of these rounds
+  model::Modes modes_so_bounded_;            // decided in the round before
   bool bearings_undecided_ = false;          // in the last decision no modes agreed with the loads of the bearings
   std::vector<double> largest_;  // [m/s^2] by contact: of the accelerations without the forces sought in its island
   Vec dv_, v_before_, a_, lambda_, lambda_before_;

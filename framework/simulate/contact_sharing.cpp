@@ -15,7 +15,8 @@ namespace {
 constexpr double no_force = 1e-12;
 // Of the largest load of a group: a spare load may be negative by this round-off.
 constexpr double round_off_of_loads = 1e-9;
-// Rule 15. Of the largest force in the island: bounds that differ by less are the same.
+// Rule 15. Of the largest force in the island: bounds that differ by less are the same. In the same modes these do not
+// depend on the bounds, and the forces may have errors.
 constexpr double same_bound = 1e-9;
 constexpr int most_rounds_of_bounds = 10;
 
@@ -35,6 +36,11 @@ bool let_go(const std::vector<Participant*>& held) {
   for (Participant* p : held)
     if (!p->let_go && p->mu < p->mu_0) p->let_go = any = true;
   return any;
+}
+
+bool same_modes(const model::Modes& one, const model::Modes& other) {
+  return std::equal(one.contacts.begin(), one.contacts.end(), other.contacts.begin(), other.contacts.end(),
+                    [](const auto& a, const auto& b) { return a.closed == b.closed && a.friction == b.friction; });
 }
 
 bool has_any(const std::vector<bool>& all) {
@@ -285,6 +291,8 @@ bool ContactModes::bound_by_springs(const State& state) {
   if (!any_bounded) without_bounds_ = problem_.who;
   const std::map<int, model::Carried> carried = carried_by_springs();
   const std::vector<double> largest = problem_.largest_in_island();
+  const double same = any_bounded && same_modes(modes_, modes_so_bounded_) ? most_error_of_forces : same_bound;
+  modes_so_bounded_ = modes_;
   bool changed = false;
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     Participant& p = problem_.who[i];
@@ -292,7 +300,7 @@ bool ContactModes::bound_by_springs(const State& state) {
     if (!p.unilateral || p.tangent != Participant::Tangent::resting) continue;
     if (!bounded(p) && by_springs == carried.end()) continue;
     const auto [contact, N, T] = by_springs != carried.end() ? by_springs->second : carried_in_modes(p.contact);
-    if (bounded(p) && std::abs(N - p.pressed) <= same_bound * largest[i]) continue;
+    if (bounded(p) && std::abs(N - p.pressed) <= same * largest[i]) continue;
     if (T > (1 - Participant::near_bound) * (p.let_go ? p.mu : p.mu_0) * N) p.let_go = p.yielded = true;
     p.pressed = N;
     changed = true;

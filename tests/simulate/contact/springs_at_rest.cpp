@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "block.hpp"
+#include "complementarity/shares/admissible_forces.hpp"
 #include "support/between.hpp"
 #include "support/run_scene.hpp"
 
@@ -162,6 +163,57 @@ TEST(BlockInAChannel, RestsWhereItWouldJam) {
   ASSERT_TRUE(run.done()) << run.report.reason;
   EXPECT_TRUE(run.of_kind("slip").empty());
   EXPECT_LT(run.result["counts"]["steps"], 100);
+}
+
+// Ten feet of a table, whose normal forces do not depend on their friction: N_i = a + b x_i + c y_i balances the load,
+// and the table slips where no friction |T_i| <= mu N_i has its resultants any more.
+TEST(TableOfTenFeet, SlipsWhereFrictionUnderItsSpringsEnds) {
+  const double m = 8.1, height = 0.5, mu = 0.2;
+  const Eigen::Vector3d pulled(0.008, 0.453, 0.375), rate(-131.61084830575868, -20.55015454834551, 48.49460311458865);
+  std::vector<Eigen::Vector2d> feet = {{0, -0.77}};
+  for (const double x : {-0.31, 0.0, 0.31})
+    for (const double y : {-0.77 / 3, 0.77 / 3}) feet.push_back({x, y});
+  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(0.31, -0.77), {-0.31, 0.77}, {0.31, 0.77}})
+    feet.push_back(corner);
+  const auto count = Eigen::Index(feet.size());
+  json s = {{"trammel", 1}, {"space", "spatial"}, {"gravity", {0, 0, -g}}, {"simulate", {{"until", 0.09}}}};
+  s["record"]["every"] = 0.03;
+  json markers = {{"p", {pulled.x(), pulled.y(), pulled.z() - height}}};
+  Eigen::MatrixXd E_n(3, count), E_t(3, 2 * count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& [x, y] = std::pair(feet[std::size_t(i)][0], feet[std::size_t(i)][1]);
+    const std::string foot = fmt::format("f{}", i);
+    markers[foot] = {x, y, -height};
+    s["contacts"][foot] = contact("t." + foot, {0, 0, 0}, {0, 0, 1}, mu);
+    E_n.col(i) << 1, x, y;
+    E_t.middleCols(2 * i, 2) << 1, 0, 0, 1, -y, x;
+  }
+  s["bodies"]["t"] = {{"type", "rigid_body"},
+                      {"mass", m},
+                      {"inertia", {1.6, 0.26, 1.86}},
+                      {"position", {0, 0, height}},
+                      {"markers", markers}};
+  s["record"]["observe"] = {{"x", "t.com.x"}};
+  const auto law = [](double by) { return fmt::format("={:.17g}*t", by); };
+  s["forces"]["pull"] = {
+      {"type", "load"}, {"on", "t.p"}, {"force", {{"x", law(rate.x())}, {"y", law(rate.y())}, {"z", law(rate.z())}}}};
+  const auto holds = [&](double t) {
+    const Eigen::Vector3d P = t * rate;
+    const Eigen::Vector3d M = pulled.cross(P), up(m * g - P.z(), M.y(), -M.x());  // M: about the middle of the floor
+    const Eigen::VectorXd N = E_n.transpose() * (E_n * E_n.transpose()).inverse() * up;
+    std::vector<complementarity::SharingContact> given;
+    for (int i = 0; i < int(count); ++i) given.push_back({-1, {2 * i, 2 * i + 1}, mu, N[i]});
+    Eigen::VectorXd T;
+    const Eigen::VectorXd wanted = Eigen::Vector3d(-P.x(), -P.y(), -M.z());
+    return complementarity::admissible_forces(given, E_t, wanted, T) < 1e-9 * wanted.norm();
+  };
+  double held = 0, slips = 0.09;
+  while (slips - held > 1e-12) (holds((held + slips) / 2) ? held : slips) = (held + slips) / 2;
+  const Finished run = run_text(s.dump());
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  const auto events = run.of_kind("slip");
+  ASSERT_FALSE(events.empty());
+  EXPECT_NEAR(events.front().t, held, 2 * let_go * held);
 }
 
 }  // namespace
