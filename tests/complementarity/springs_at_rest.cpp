@@ -234,5 +234,23 @@ TEST(SpringsAtRest, HoldABoxInEveryOrderOfItsContacts) {
   EXPECT_GT(let_go, 20);
 }
 
+// The load is that of springs which a random push displaces, with a part of the friction that these allow.
+TEST(SpringsAtRest, HoldManyContactsUnderALoadThatSpringsCarry) {
+  std::mt19937 random(6);
+  const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+  int held = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Box box(random, 9 + i % 8);
+    const Vec push{{any(-1, 1), any(0, 1), any(-1, 1)}};
+    Vec F = Vec::Zero(box.E.cols());
+    for (const SharingContact& c : box.contacts) {
+      F[c.normal] = std::max(0.0, box.E.col(c.normal).dot(push));
+      F[c.tangents[0]] = any(-0.95, 0.95) * c.coefficient * F[c.normal];
+    }
+    held += forces_as_springs(box.contacts, box.E, box.E * F, carried, F);
+  }
+  EXPECT_EQ(held, 200);
+}
+
 }  // namespace
 }  // namespace trammel::complementarity

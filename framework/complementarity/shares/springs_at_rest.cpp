@@ -18,6 +18,7 @@ using Eigen::Index;
 constexpr int most_rounds = 10;
 // Sets of contacts that part: all are judged where there are no more, which 8 contacts do not exceed.
 constexpr std::size_t most_sets = 255;
+constexpr int most_decisions = 100;  // otherwise
 // Of the largest force: a normal force up to this is none, and friction may exceed its bound by this.
 constexpr double no_force_of_springs = 1e-10;
 // Of that of the springs: the bodies' compliance. Each round leaves about this part of what was missed.
@@ -30,10 +31,15 @@ constexpr double no_part_in_self_stress = 1e-12;
 // Of the largest force: sets that can spare as much are as good as any.
 constexpr double much_to_spare = 0.25;
 
+// Whether the springs of a contact press. Of one that may do either, force and slack may both be positive.
+enum class Spring { presses, parts, either };
+using Set = std::vector<Spring>;
+
 // The contacts that press and the columns of their forces; after these, the slacks of the others. Their equations.
 struct Pressing {
   std::vector<SharingContact> contacts;
   std::vector<Index> columns;
+  std::vector<Index> slack_of;  // by contact: the column of its slack, or -1
   Mat E;
   Vec lambda;
   bool carries = true;  // false: these equations have no solution, whatever the signs of the forces
@@ -96,10 +102,11 @@ double largest(const std::vector<SharingContact>& contacts, const Vec& F) {
   return most;
 }
 
-std::vector<bool> that_press(const std::vector<SharingContact>& contacts, const Vec& F) {
+Set that_press(const std::vector<SharingContact>& contacts, const Vec& F) {
   const double least = no_force_of_springs * largest(contacts, F);
-  std::vector<bool> press;
-  for (const SharingContact& c : contacts) press.push_back((c.normal >= 0 ? F[c.normal] : c.given) > least);
+  Set press;
+  for (const SharingContact& c : contacts)
+    press.push_back((c.normal >= 0 ? F[c.normal] : c.given) > least ? Spring::presses : Spring::parts);
   return press;
 }
 
@@ -118,34 +125,39 @@ bool in_cones(const std::vector<SharingContact>& contacts, const Vec& F) {
 }
 
 // Z: self-stress of all.
-Pressing only(const std::vector<bool>& press, const std::vector<SharingContact>& contacts, const Mat& E, const Mat& Z,
+Pressing only(const Set& press, const std::vector<SharingContact>& contacts, const Mat& E, const Mat& Z,
               const Vec& lambda) {
   Pressing p;
-  std::vector<Index> column_of(contacts.size(), -1);  // of the normal force
+  std::vector<Index> force_of(contacts.size(), -1), slack_of(contacts.size(), -1);  // columns
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (!press[i]) continue;
+    if (press[i] == Spring::parts) continue;
     SharingContact own = contacts[i];
     const auto take = [&p](Index& column) {
       p.columns.push_back(column);
       column = Index(p.columns.size()) - 1;
     };
-    if (own.normal >= 0) take(own.normal), column_of[i] = own.normal;
+    if (own.normal >= 0) take(own.normal), force_of[i] = own.normal;
     for (Index& k : own.tangents) take(k);
     p.contacts.push_back(std::move(own));
   }
   Index columns = Index(p.columns.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (press[i] || contacts[i].normal < 0) continue;
+    if (press[i] == Spring::presses || contacts[i].normal < 0) continue;
     SharingContact& slack = p.contacts.emplace_back();
-    slack.normal = column_of[i] = columns++, slack.carries = false;
+    slack.normal = slack_of[i] = columns++, slack.carries = false;
   }
   p.E = Mat::Zero(E.rows() + Z.cols(), columns);
   p.E.topLeftCorner(E.rows(), Index(p.columns.size())) = E(Eigen::all, p.columns);
-  for (Index i = 0, row = 0; i < Index(contacts.size()); ++i)
-    if (contacts[std::size_t(i)].normal >= 0)
-      p.E.col(column_of[std::size_t(i)]).tail(Z.cols()) = (press[std::size_t(i)] ? 1 : -1) * Z.row(row++).transpose();
+  Index row = 0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (contacts[i].normal < 0) continue;
+    if (force_of[i] >= 0) p.E.col(force_of[i]).tail(Z.cols()) = Z.row(row).transpose();
+    if (slack_of[i] >= 0) p.E.col(slack_of[i]).tail(Z.cols()) = -Z.row(row).transpose();
+    ++row;
+  }
   p.lambda = Vec::Zero(p.E.rows());
   p.lambda.head(lambda.size()) = lambda;
+  p.slack_of = slack_of;
   make_independent(p);
   return p;
 }
@@ -189,9 +201,9 @@ class Search {
   Found among_followers(Vec F) {
     size_ = largest(contacts_, F);
     for (int round = 0; round < most_rounds; ++round) {
-      const std::vector<bool> press = that_press(contacts_, with_normals_of_springs(contacts_, E_, F));
+      const Set press = that_press(contacts_, with_normals_of_springs(contacts_, E_, F));
       if (seen(press)) break;
-      if (std::none_of(press.begin(), press.end(), [](bool presses) { return presses; })) {
+      if (std::none_of(press.begin(), press.end(), [](Spring spring) { return spring == Spring::presses; })) {
         if (round == 0) best_ = {-lambda_.norm(), {}, Vec::Zero(E_.cols()), true};  // nothing carries
         break;
       }
@@ -200,22 +212,22 @@ class Search {
     return best_;
   }
 
-  // If these hold nothing, all sets; of many contacts those that differ from them in one contact.
+  // If these hold nothing, all sets; of many contacts one that is found by decisions one after the other. If springs
+  // press in none of them, those that differ from the first in one contact.
   Found among_all(Vec F) {
     among_followers(std::move(F));
     if (best_.spare >= -not_carried * size_) return std::move(best_);
     const std::vector<std::size_t> parting = that_may_part();
     if (count_sets(parting.size()) <= most_sets)
-      judge_all(std::vector<bool>(contacts_.size(), true), parting, 0, Z_.cols());
-    else if (best_.F.size() == 0)
-      judge_neighbours();
+      judge_all(Set(contacts_.size(), Spring::presses), parting, 0, Z_.cols());
+    else
+      judge_some(parting);
+    if (best_.F.size() == 0) judge_neighbours();
     return std::move(best_);
   }
 
  private:
-  bool seen(const std::vector<bool>& press) const {
-    return std::find(seen_.begin(), seen_.end(), press) != seen_.end();
-  }
+  bool seen(const Set& press) const { return std::find(seen_.begin(), seen_.end(), press) != seen_.end(); }
 
   // Those with a part in a self-stress.
   std::vector<std::size_t> that_may_part() const {
@@ -238,36 +250,72 @@ class Search {
 
   // At most `more` of the contacts from parting[first] on part: slacks x >= 0 with given Z^T x exist only if they do
   // with no more of them than columns of Z (Caratheodory).
-  void judge_all(std::vector<bool> press, const std::vector<std::size_t>& parting, std::size_t first, Index more) {
+  void judge_all(Set press, const std::vector<std::size_t>& parting, std::size_t first, Index more) {
     if (!seen(press)) judge_those_of(press);
     if (more == 0) return;
     for (std::size_t k = first; k < parting.size(); ++k) {
-      press[parting[k]] = false;
+      press[parting[k]] = Spring::parts;
       judge_all(press, parting, k + 1, more - 1);
-      press[parting[k]] = true;
+      press[parting[k]] = Spring::presses;
     }
   }
 
   // Of contacts that may press some have no force: without these more can be spared.
-  void judge_those_of(const std::vector<bool>& may_press) {
+  void judge_those_of(const Set& may_press) {
     const Found found = judged(may_press, -not_carried * size_);
     if (!(found.spare >= -not_carried * size_)) return;
     keep_if_better(found);
-    const std::vector<bool> press = that_press(contacts_, found.F);
+    const Set press = that_press(contacts_, found.F);
     if (!seen(press)) judge(press);
   }
 
+  void judge_some(const std::vector<std::size_t>& parting) {
+    Set set(contacts_.size(), Spring::presses);
+    for (const std::size_t i : parting) set[i] = Spring::either;
+    int left = most_decisions;
+    (void)decide_one_by_one(set, left);
+  }
+
+  // In the least forces of contacts that may do either, the one whose force and slack are both the largest is to do
+  // what the larger one says, until there is none; where this leads to no forces, the contrary. True if a set holds.
+  bool decide_one_by_one(Set set, int& left) {
+    if (left-- <= 0) return false;
+    const Pressing p = only(set, contacts_, E_, Z_, lambda_);
+    Vec own;
+    const double missed = admissible_forces(p.contacts, p.E, p.lambda, own);
+    if (!p.carries || !(missed <= not_carried * p.lambda.norm())) return false;
+    const Vec F = with_idle(p, own, E_.cols());
+    std::size_t worst = 0;
+    double most = 0;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      const double both = set[i] == Spring::either ? std::min(F[contacts_[i].normal], own[p.slack_of[i]]) : 0;
+      if (both > most) worst = i, most = both;
+    }
+    if (most <= no_force_of_springs * size_) {
+      const Set press = that_press(contacts_, F);
+      if (!seen(press)) judge(press);
+      return best_.spare >= -not_carried * size_;
+    }
+    const bool presses = F[contacts_[worst].normal] > own[p.slack_of[worst]];
+    for (const Spring decided :
+         {presses ? Spring::presses : Spring::parts, presses ? Spring::parts : Spring::presses}) {
+      set[worst] = decided;
+      if (decide_one_by_one(set, left)) return true;
+    }
+    return false;
+  }
+
   void judge_neighbours() {
-    const std::vector<std::vector<bool>> sets = seen_;
-    for (const std::vector<bool>& set : sets)
+    const std::vector<Set> sets = seen_;
+    for (const Set& set : sets)
       for (std::size_t i = 0; i < set.size(); ++i) {
-        std::vector<bool> other = set;
-        other[i] = !other[i];
+        Set other = set;
+        other[i] = other[i] == Spring::parts ? Spring::presses : Spring::parts;
         if (!seen(other)) judge(other);
       }
   }
 
-  Vec judge(const std::vector<bool>& press) {
+  Vec judge(const Set& press) {
     Found found = judged(press);
     keep_if_better(found);
     return found.F;
@@ -279,7 +327,7 @@ class Search {
 
   // With the least forces of the set, or those that leave their cones least: forces that spare most may be of any size
   // (a strut that locks).
-  Found judged(const std::vector<bool>& press, double wanted = -std::numeric_limits<double>::infinity()) {
+  Found judged(const Set& press, double wanted = -std::numeric_limits<double>::infinity()) {
     seen_.push_back(press);
     Found found;
     found.pressing = only(press, contacts_, E_, Z_, lambda_);
@@ -307,7 +355,7 @@ class Search {
   const Vec& lambda_;
   Mat Z_;
   double size_ = 0;  // of the forces
-  std::vector<std::vector<bool>> seen_;
+  std::vector<Set> seen_;
   Found best_;
 };
 

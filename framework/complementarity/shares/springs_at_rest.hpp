@@ -14,9 +14,9 @@
 // rows added to E and a column for each x. A follows from T, and is found by repetition. Where the sets that come up
 // hold nothing, all sets are judged, so the answer is certain and does not depend on the order of contacts. They are
 // few: only contacts with a part in a self-stress may part, and slacks for given N_A exist only if they do with no more
-// positive ones than columns of Z (Caratheodory). Of more than 8 contacts, if the sets are too many, only the
-// neighbours of those that came up are judged. Without friction a self-stress holds nothing, so all admissible forces
-// count.
+// positive ones than columns of Z (Caratheodory). Of more than 8 contacts, if the sets are too many, one is
+// sought by branches: each contact may have a force and a slack at first, and those with both are decided one by one.
+// Without friction a self-stress holds nothing, so all admissible forces count.
 #pragma once
 
 #include <vector>
