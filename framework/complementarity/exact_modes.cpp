@@ -59,8 +59,16 @@ class ExactModes {
     roles_ = roles_of(points, F, a_, nearby * acceleration_scale());
   }
 
+  // With forces as springs where contacts slide; with others only if there are no modes for these.
   bool solve() {
-    if (!settle_modes()) return false;
+    const std::vector<ContactRole> roles = roles_;
+    const Vec F = F_, a = a_;
+    if (!settle_modes()) {
+      if (!other_forces_exist_) return false;
+      roles_ = roles, F_ = F, a_ = a;
+      as_springs_ = false;
+      if (!settle_modes()) return false;
+    }
     share_by_accelerations();
     return true;
   }
@@ -213,7 +221,7 @@ class ExactModes {
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const ContactPoint& p = points_[i];
       const ContactRole& role = roles_[i];
-      if (!carrying_.indeterminate[i] || !role.closed || role.idle || role.tangent == Tangent::slides) continue;
+      if (!shares_at_rest(i)) continue;
       SharingContact& c = sharing.emplace_back();
       c.given = p.given, c.coefficient = p.coefficient;
       if (p.normal >= 0) c.normal = column_of(p.normal);
@@ -223,23 +231,35 @@ class ExactModes {
     return sharing;
   }
 
-  bool springs_are_admissible() const {
+  bool shares_at_rest(std::size_t i) const {
+    const ContactRole& role = roles_[i];
+    return carrying_.indeterminate[i] && role.closed && !role.idle && role.tangent != Tangent::slides;
+  }
+
+  bool springs_push() const {
     const double little = mode_tolerance * acceleration_scale();
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (shares_at_rest(i) && pull(i) > little) return false;
+    return true;
+  }
+
+  bool springs_are_in_cones() const {
     const Vec no_slip = mode_tolerance * own_scales();
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const ContactRole& role = roles_[i];
-      if (!carrying_.indeterminate[i] || !role.closed || role.idle || role.tangent == Tangent::slides) continue;
-      if (pull(i) > little || (role.tangent == Tangent::sticks && beyond_cone(i) > no_slip[Index(i)])) return false;
-    }
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (shares_at_rest(i) && roles_[i].tangent == Tangent::sticks && beyond_cone(i) > no_slip[Index(i)]) return false;
     return true;
   }
 
   // Takes the least admissible forces where springs would pull or leave a cone. Resultants are corrected by the
   // accelerations that K and the projections leave: round-off of forces that may be many times larger than those that
-  // accelerate.
+  // accelerate. Beside sliding contacts the normal forces stay those of springs, since the motion depends on them.
   void share_admissibly(const CarryingEquations& equations) {
-    if (springs_are_admissible()) return;
-    if (!share_beside_sliding(equations) && carrying_.sliding_shares) share_with_sliding();
+    const bool push = springs_push();
+    if (push && springs_are_in_cones()) return;
+    const bool as_springs = as_springs_ && carrying_.sliding_shares;
+    other_forces_exist_ = other_forces_exist_ || as_springs;
+    if (as_springs && !push) return;  // those that pull are idle
+    if (!share_beside_sliding(equations) && carrying_.sliding_shares && !as_springs) share_with_sliding();
   }
 
   // Sliding contacts keep the shares of springs. False: there are no admissible shares.
@@ -381,6 +401,8 @@ class ExactModes {
   Vec a_;
   std::vector<ContactRole> roles_;
   CarryingRows carrying_;
+  bool as_springs_ = true;           // where sliding contacts share
+  bool other_forces_exist_ = false;  // contacts could carry otherwise
 };
 
 }  // namespace

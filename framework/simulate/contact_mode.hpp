@@ -104,11 +104,11 @@
 //     single part keeps T = mu N (rule 12), unless no other row holds its tangent.
 // 15. Contacts at rest could press against each other, as the floor and the ceiling of a channel without clearance do,
 //     and hold by their friction whatever pushes. Springs do not press so (complementarity/shares/springs_at_rest). If
-//     forces as springs do not hold a group at rest, the friction of its contacts is bounded by their springs' normal
-//     forces, those at their bounds let go, and all modes are decided again: until the normal forces in the modes
-//     decided are those that bound the friction, up to their errors if the modes stay. So a clearance of 0 is the limit
-//     of small ones, and rigid contacts move as stiff compliant ones. Where this comes to no end (a stack that has
-//     locked while it slid), rest stays.
+//     forces as springs do not hold those of a group that rest, friction of its contacts is bounded by their springs'
+//     normal forces, that of its sliding ones (feet on a belt below a table) follows from them, those at their bounds
+//     let go, and all modes are decided again: until the normal forces in the modes decided are those of the friction,
+//     up to their errors if the modes stay. So a clearance of 0 is the limit of small ones, and rigid contacts move as
+//     stiff compliant ones. Where this comes to no end (a stack that has locked while it slid), rest stays.
 //
 // `rebound: constrained` makes candidates of contacts that separate at e u-. `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0. `onset: next_step` only changes when an event is seen.
@@ -307,8 +307,8 @@ class ContactModes {
   std::vector<Participant*> held_at_bounds(const State& state);
   void keep_at_bound(Participant& p);
   bool share_within_bounds(const State& state);
-  bool bound_by_springs(const State& state);
-  std::map<int, model::Carried> carried_by_springs();
+  bool bound_by_springs(const State& state, const std::vector<Participant*>& held);
+  std::map<int, model::Carried> carried_by_springs(const std::vector<Participant*>& held);
   model::Carried carried_in_modes(int contact);
   void share_forces_found(const State& state);
   double least_acceleration(const Participant& p) const;

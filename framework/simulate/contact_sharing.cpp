@@ -269,11 +269,16 @@ void ContactModes::keep_at_bound(Participant& p) {
   p.ratio = -p.mu * mode.direction;
 }
 
-// Rule 15. By contact: what members of groups at rest carry as springs, if such forces do not hold them.
-std::map<int, model::Carried> ContactModes::carried_by_springs() {
+// Rule 15. By contact: what members of groups carry as springs, if such forces do not hold those at rest. `held` are at
+// their bounds beside sliding ones (rule 12).
+std::map<int, model::Carried> ContactModes::carried_by_springs(const std::vector<Participant*>& held) {
+  const auto decided_by_rule_12 = [&held](const model::SharedRows& group) {
+    return has_sliding(group) && std::any_of(held.begin(), held.end(),
+                                             [&](const Participant* p) { return shares_tangents(group, p->contact); });
+  };
   std::map<int, model::Carried> carried;
   for (int g = 0; g < int(modes_.shared.size()); ++g) {
-    if (has_sliding(modes_.shared[std::size_t(g)])) continue;
+    if (decided_by_rule_12(modes_.shared[std::size_t(g)])) continue;
     const double round_off = round_off_of_loads * system_.largest_load(g, lambda_);
     if (system_.spare_load_as_springs(g, lambda_) >= -round_off) continue;
     for (const model::Carried& each : system_.carried_as_springs(g, lambda_)) carried[each.contact] = each;
@@ -283,13 +288,13 @@ std::map<int, model::Carried> ContactModes::carried_by_springs() {
 
 // Rule 15. True if the bounds of friction have changed: all modes are to be decided again. If the bounds come to no
 // end, none is kept.
-bool ContactModes::bound_by_springs(const State& state) {
+bool ContactModes::bound_by_springs(const State& state, const std::vector<Participant*>& held) {
   const auto bounded = [](const Participant& p) { return p.pressed >= 0; };
   const bool any_bounded = std::any_of(problem_.who.begin(), problem_.who.end(), bounded);
   if (rounds_of_bounds_ > most_rounds_of_bounds || (modes_.shared.empty() && !any_bounded)) return false;
   if (!has_forces_in(modes_, state)) return false;
   if (!any_bounded) without_bounds_ = problem_.who;
-  const std::map<int, model::Carried> carried = carried_by_springs();
+  const std::map<int, model::Carried> carried = carried_by_springs(held);
   const std::vector<double> largest = problem_.largest_in_island();
   const double same = any_bounded && same_modes(modes_, modes_so_bounded_) ? most_error_of_forces : same_bound;
   modes_so_bounded_ = modes_;
@@ -297,11 +302,12 @@ bool ContactModes::bound_by_springs(const State& state) {
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     Participant& p = problem_.who[i];
     const auto by_springs = carried.find(p.contact);
-    if (!p.unilateral || p.tangent != Participant::Tangent::resting) continue;
+    if (!p.unilateral || p.tangent == Participant::Tangent::none) continue;
     if (!bounded(p) && by_springs == carried.end()) continue;
     const auto [contact, N, T] = by_springs != carried.end() ? by_springs->second : carried_in_modes(p.contact);
     if (bounded(p) && std::abs(N - p.pressed) <= same * largest[i]) continue;
-    if (T > (1 - Participant::near_bound) * (p.let_go ? p.mu : p.mu_0) * N) p.let_go = p.yielded = true;
+    const bool rests = p.tangent == Participant::Tangent::resting;
+    if (rests && T > (1 - Participant::near_bound) * (p.let_go ? p.mu : p.mu_0) * N) p.let_go = p.yielded = true;
     p.pressed = N;
     changed = true;
   }
@@ -318,9 +324,8 @@ model::Carried ContactModes::carried_in_modes(int contact) {
 
 // Rules 12, 14 and 15. False if a contact lets go: all modes are to be decided again.
 bool ContactModes::share_within_bounds(const State& state) {
-  if (bound_by_springs(state)) return false;
   const std::vector<Participant*> held = held_at_bounds(state);
-  if (let_go(held)) return false;
+  if (bound_by_springs(state, held) || let_go(held)) return false;
   for (Participant* p : held) keep_at_bound(*p);
   if (!held.empty()) find_shares(state);
   share_forces_found(state);

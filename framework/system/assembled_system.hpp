@@ -93,9 +93,9 @@ class AssembledSystem final : public System, public HasRigidMotions {
   // [N] for each contact of a group: by how much it can be unloaded until no admissible forces give the same
   // resultants; negative if there are none already.
   double spare_load(int group, const Vec& lambda);
-  // The same for forces as springs (complementarity/shares/springs_at_rest.hpp); alike where some contacts slide.
+  // The same for forces as springs (complementarity/shares/springs_at_rest.hpp).
   double spare_load_as_springs(int group, const Vec& lambda);
-  // Of a group of which nothing slides: such forces; those that leave their cones least, if there are none.
+  // Such forces of a group; those that leave their cones least, if there are none.
   std::vector<Carried> carried_as_springs(int group, const Vec& lambda);
   double largest_load(int group, const Vec& lambda);  // [N] the largest of their forces
   // [m/s^2] the largest acceleration along the implied directions for an acceleration of the system: 0 as long as they

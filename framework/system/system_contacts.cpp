@@ -65,12 +65,16 @@ double AssembledSystem::spare_load(int group, const Vec& lambda) {
 }
 
 double AssembledSystem::spare_load_as_springs(int group, const Vec& lambda) {
-  if (!modes().shared[std::size_t(group)].sliding.empty()) return spare_load(group, lambda);
-  return parts_->shares.prepared(group, lambda).spare_load_as_springs(group);
+  Parts& p = *parts_;
+  const ContactLoads& loads = p.shares.prepared(group, lambda);
+  const double spare = loads.spare_load_as_springs(group);
+  if (spare >= 0 || modes().shared[std::size_t(group)].sliding.empty()) return spare;
+  return std::max(spare, loads.spare_load_as_springs_with_sliding(group, p.shares.moved_with_sliding(group)));
 }
 
 std::vector<Carried> AssembledSystem::carried_as_springs(int group, const Vec& lambda) {
-  return parts_->shares.prepared(group, lambda).carried_as_springs(group);
+  const ContactLoads& loads = parts_->shares.prepared(group, lambda);
+  return loads.carried_as_springs(group, parts_->shares.moved_with_sliding(group));
 }
 
 double AssembledSystem::largest_load(int group, const Vec& lambda) {

@@ -252,5 +252,22 @@ TEST(SpringsAtRest, HoldManyContactsUnderALoadThatSpringsCarry) {
   EXPECT_EQ(held, 200);
 }
 
+// Two feet rest with coefficients 0.1 and 0.8, the third slides and is dragged by 0.1 N. Springs press by 10 N each, so
+// the belt drags by 1 N and the others hold 9 N; if the second foot carried all, it would hold 24 N.
+TEST(SpringsAtRest, HoldFeetBesideOneThatSlidesByTheLoadsThatSpringsHave) {
+  const std::vector<SharingContact> feet = {
+      {0, {1}, 0.1}, {2, {3}, 0.8}, {.normal = 4, .tangents = {}, .carries = false}};
+  Mat E(3, 5);  // rows: force across, moment, force along
+  E << 1, 0, 1, 0, 1, -1, 0, 0, 0, 1, 0, 1, 0, 1, 0.1;
+  const Mat push{{1, 1, 1}, {-1, 0, 1}};
+  for (const double held : {-8.999, 0.0, 4.0, 8.999}) {
+    Vec F;
+    EXPECT_GE(spare_load_as_springs(feet, E, push, Vec{{30, 0, 1 + held}}, &F), 0) << held;
+    for (const int normal : {0, 2, 4}) EXPECT_NEAR(F[normal], 10, 1e-8) << held;
+  }
+  for (const double held : {-9.001, 9.001, 20.0})
+    EXPECT_LT(spare_load_as_springs(feet, E, push, Vec{{30, 0, 1 + held}}), 0) << held;
+}
+
 }  // namespace
 }  // namespace trammel::complementarity

@@ -23,7 +23,7 @@ struct SharingContact {
   std::vector<Eigen::Index> tangents;  // columns of its tangents; may be empty
   double coefficient = 0;              // c
   double given = 0;                    // N, where `normal` is -1
-  bool carries = true;                 // false: `normal` is the column of a slack, which spare_load does not unload
+  bool carries = true;                 // false: spare_load does not unload it (a slack, or a contact that slides)
 };
 
 // The program of E F = lambda and the cones for x = (N, T/c), contact after contact, that minimises |F|^2 / 2; the last

@@ -86,12 +86,11 @@ Vec pressing_springs(const Mat& E_n, const Vec& resultants) {
 }
 
 // F with the normal forces that springs have beside its friction.
-Vec with_normals_of_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& F) {
+Vec with_normals_of_springs(const std::vector<SharingContact>& contacts, const Mat& push, const Vec& F) {
   const std::vector<Index> normals = normals_of(contacts);
-  const Mat E_n = E(Eigen::all, normals);
-  const Vec resultants = E_n * F(normals).cwiseMax(0);
+  const Vec resultants = push * F(normals).cwiseMax(0);
   Vec springs = F;
-  springs(normals) = pressing_springs(E_n, resultants);
+  springs(normals) = pressing_springs(push, resultants);
   return springs;
 }
 
@@ -173,11 +172,10 @@ bool carries(const Mat& E, const Vec& F, const Vec& lambda, double carried) {
 }
 
 // Contacts that press against each other hold others by their friction only.
-bool may_lock(const std::vector<SharingContact>& contacts, const Mat& E) {
+bool may_lock(const std::vector<SharingContact>& contacts, const Mat& push) {
   const auto rubs = [](const SharingContact& c) { return c.coefficient > 0 && !c.tangents.empty(); };
   if (std::none_of(contacts.begin(), contacts.end(), rubs)) return false;
-  const Mat E_n = E(Eigen::all, normals_of(contacts));
-  return E_n.cols() > 1 && self_stress(E_n).cols() > 0;
+  return push.cols() > 1 && self_stress(push).cols() > 0;
 }
 
 // The spare load of forces as springs, up to what is much; the contacts that press with it, and forces that have it.
@@ -194,14 +192,14 @@ struct Found {
 // Of sets of contacts that press, the one that can spare most.
 class Search {
  public:
-  Search(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda)
-      : contacts_(contacts), E_(E), lambda_(lambda), Z_(self_stress(E(Eigen::all, normals_of(contacts)))) {}
+  Search(const std::vector<SharingContact>& contacts, const Mat& E, const Mat& push, const Vec& lambda)
+      : contacts_(contacts), E_(E), push_(push), lambda_(lambda), Z_(self_stress(push)) {}
 
   // The sets that follow from F, and from each other's forces, until one comes up again.
   Found among_followers(Vec F) {
     size_ = largest(contacts_, F);
     for (int round = 0; round < most_rounds; ++round) {
-      const Set press = that_press(contacts_, with_normals_of_springs(contacts_, E_, F));
+      const Set press = that_press(contacts_, with_normals_of_springs(contacts_, push_, F));
       if (seen(press)) break;
       if (std::none_of(press.begin(), press.end(), [](Spring spring) { return spring == Spring::presses; })) {
         if (round == 0) best_ = {-lambda_.norm(), {}, Vec::Zero(E_.cols()), true};  // nothing carries
@@ -351,7 +349,7 @@ class Search {
   }
 
   const std::vector<SharingContact>& contacts_;
-  const Mat& E_;
+  const Mat &E_, &push_;
   const Vec& lambda_;
   Mat Z_;
   double size_ = 0;  // of the forces
@@ -365,13 +363,14 @@ bool forces_as_springs(const std::vector<SharingContact>& contacts, const Mat& E
                        Vec& F) {
   admissible_forces(contacts, E, lambda, F);
   if (!carries(E, F, lambda, carried)) return false;
-  if (!may_lock(contacts, E)) return true;
-  const Vec springs = with_normals_of_springs(contacts, E, F);
+  const Mat push = E(Eigen::all, normals_of(contacts));
+  if (!may_lock(contacts, push)) return true;
+  const Vec springs = with_normals_of_springs(contacts, push, F);
   if (in_cones(contacts, springs)) {
     F = springs;
     return true;
   }
-  const Found found = Search(contacts, E, lambda).among_all(F);
+  const Found found = Search(contacts, E, push, lambda).among_all(F);
   if (found.F.size() == 0) return false;
   if (!(found.spare >= -carried * largest(contacts, found.F))) return false;
   if (found.pressing.columns.empty()) return true;  // nothing is to be carried
@@ -382,11 +381,16 @@ bool forces_as_springs(const std::vector<SharingContact>& contacts, const Mat& E
 }
 
 double spare_load_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, Vec* F) {
-  if (!may_lock(contacts, E)) return spare_load(contacts, E, lambda, F);
+  return spare_load_as_springs(contacts, E, E(Eigen::all, normals_of(contacts)), lambda, F);
+}
+
+double spare_load_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Mat& push,
+                             const Vec& lambda, Vec* F) {
+  if (!may_lock(contacts, push)) return spare_load(contacts, E, lambda, F);
   Vec begin;
   const bool may_hold = spare_load(contacts, E, lambda, &begin) >= 0;
   if (may_hold) admissible_forces(contacts, E, lambda, begin);
-  Search search(contacts, E, lambda);
+  Search search(contacts, E, push, lambda);
   const Found found = may_hold ? search.among_all(begin) : search.among_followers(begin);
   const bool any = found.F.size() > 0;
   if (F) *F = any ? found.F : begin;

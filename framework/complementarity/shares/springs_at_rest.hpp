@@ -32,5 +32,9 @@ namespace trammel::complementarity {
 // if it is not null.
 double spare_load_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda,
                              Vec* F = nullptr);
+// The same beside contacts that slide. They have normal forces only, whose columns in E are those of n + p t, while
+// their springs yield along n: `push` has the columns of n for the normal forces of all, which take the place of E_n.
+double spare_load_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Mat& push,
+                             const Vec& lambda, Vec* F = nullptr);
 
 }  // namespace trammel::complementarity

@@ -118,6 +118,7 @@ complementarity::ContactSolution ContactProblem::solve_once(const Mat& A, const 
   std::vector<double> nothing, violation;
   for (const Participant& p : who) nothing.push_back(p.nothing);
   for (std::size_t i = 0; i < who.size(); ++i) {
+    if (who[i].slides_under_springs()) points[i].kind = complementarity::ContactPoint::Tangent::none;
     if (who[i].tangent != Participant::Tangent::resting || who[i].pressed < 0) continue;
     points.push_back(apart(points[i], who[i].pressed));
     nothing.push_back(who[i].nothing);
@@ -147,7 +148,8 @@ complementarity::ContactSolution ContactProblem::solve(double nothing) {
   return solve();
 }
 
-// b: accelerations without the forces sought, and with the known forces of participants that are pushed.
+// b: accelerations without the forces sought, and with the known ones: those of participants that are pushed, and the
+// friction of those that slide under the forces of springs.
 void ContactProblem::set_known_accelerations() {
   b_.resize(Eigen::Index(directions_.size()));
   for (std::size_t i = 0; i < who.size(); ++i) {
@@ -156,6 +158,9 @@ void ContactProblem::set_known_accelerations() {
   }
   for (const Pushed& p : pushed_) b_[p.direction] = who[p.who].a_t[0];
   for (const Pushed& p : pushed_) b_ += push(p) * delassus_.col(p.direction);
+  for (std::size_t i = 0; i < who.size(); ++i)
+    if (const auto& point = points_[i]; who[i].slides_under_springs())
+      b_ += who[i].pressed * delassus_.middleCols(point.tangent, point.tangents) * who[i].ratio.head(point.tangents);
 }
 
 // With rigid contacts; if these have no solution for vanishing approaches, with contacts that yield.
@@ -186,6 +191,7 @@ void ContactProblem::take_found() {
   for (const Pushed& p : pushed_) F_[p.direction] = push(p);
   for (std::size_t i = 0; i < who.size(); ++i) {
     Participant& p = who[i];
+    if (p.slides_under_springs()) along(F_, points_[i]) = p.pressed * p.ratio.head(points_[i].tangents);
     p.N = p.given;
     if (points_[i].normal >= 0) p.N = F_[points_[i].normal], p.a_n = a_[points_[i].normal];
     if (const int n = points_[i].tangents; points_[i].tangent >= 0)

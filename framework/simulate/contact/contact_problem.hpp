@@ -35,7 +35,7 @@ struct Participant {
   Tangential direction = Tangential::Zero();  // sliding: of the slip velocity, length 1
   bool let_go = false;                        // resting: mu applies from the start; afterwards: mu_0 did not hold it
   bool yielded = false;  // resting, let go: its friction has reached its bound and does not hold it there
-  double pressed = -1;   // [N] resting: the normal force that bounds its friction, where springs decide it (rule 15)
+  double pressed = -1;  // [N] the normal force of its friction or of the bound of it, where springs decide it (rule 15)
 
   double nothing = 0;     // accelerations or velocities up to this count as 0 in its island
   double least_slip = 0;  // resting: |a_t| up to this is no slip, whatever the round-off is
@@ -52,6 +52,7 @@ struct Participant {
   // a bound to break a tie (contact_problem.cpp) and the round-off of solutions are far smaller.
   bool at_bound(double coefficient) const { return T.norm() > (1 - near_bound) * coefficient * bounding(); }
   double bounding() const { return pressed >= 0 ? pressed : N; }  // [N]
+  bool slides_under_springs() const { return unilateral && tangent == Tangent::sliding && pressed >= 0; }
   static constexpr double near_bound = 1e-6;
 };
 

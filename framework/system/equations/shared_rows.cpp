@@ -201,7 +201,9 @@ const ContactLoads& SharedRowsAtPoint::prepared(int group, const Vec& lambda) {
 }
 
 // E of ContactLoads::solve_with_sliding: a largest set of independent rows of the motions that unit forces cause.
+// Empty where nothing slides.
 Mat SharedRowsAtPoint::moved_with_sliding(int group) {
+  if (contacts_.modes.shared[std::size_t(group)].sliding.empty()) return {};
   std::vector<ContactDirection> all = contacts_.loads.members(group);
   const auto members = Index(all.size());
   const std::vector<int>& sliding = contacts_.modes.shared[std::size_t(group)].sliding;

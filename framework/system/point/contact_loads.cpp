@@ -179,21 +179,47 @@ double ContactLoads::spare_load(int group) const {
   return complementarity::spare_load(sharing(g), g.E, g.resultants);
 }
 
-double ContactLoads::spare_load_as_springs(int group, Vec* forces) const {
+double ContactLoads::spare_load_as_springs(int group) const {
   const Group& g = groups_[std::size_t(group)];
-  return complementarity::spare_load_as_springs(sharing(g), g.E, g.resultants, forces);
+  if (g.members.empty()) return std::numeric_limits<double>::infinity();  // all slide
+  return as_springs(group, {sharing(g), g.directions, g.E}).spare_load;
 }
 
-std::vector<Carried> ContactLoads::carried_as_springs(int group) const {
+double ContactLoads::spare_load_as_springs_with_sliding(int group, const Mat& E) const {
+  return as_springs(group, with_sliding(group, E)).spare_load;
+}
+
+// Sliding contacts have an event of their own when they are unloaded: they do not count in the spare load.
+ContactLoads::AsSprings ContactLoads::as_springs(int group, Sharing all) const {
   const Group& g = groups_[std::size_t(group)];
-  Vec forces;
-  spare_load_as_springs(group, &forces);
+  for (std::size_t i = g.members.size(); i < all.contacts.size(); ++i) all.contacts[i].carries = false;
+  std::vector<Eigen::Index> normals;
+  for (const complementarity::SharingContact& c : all.contacts)
+    if (c.normal >= 0) normals.push_back(all.directions[std::size_t(c.normal)]);
+  const Mat push = modes_->shared[std::size_t(group)].resultants()(Eigen::all, normals);
+  const Vec resultants = all.E * g.forces(all.directions);
+  AsSprings result;
+  result.spare_load = complementarity::spare_load_as_springs(all.contacts, all.E, push, resultants, &result.forces);
+  result.contacts = std::move(all.contacts);
+  return result;
+}
+
+std::vector<Carried> ContactLoads::carried_as_springs(int group, const Mat& E) const {
+  const Group& g = groups_[std::size_t(group)];
+  const AsSprings springs =
+      as_springs(group, slides(group) ? with_sliding(group, E) : Sharing{sharing(g), g.directions, g.E});
+  std::vector<int> who;
+  for (const Member& m : g.members) who.push_back(m.contact);
+  if (slides(group)) {
+    const std::vector<int>& sliding = modes_->shared[std::size_t(group)].sliding;
+    who.insert(who.end(), sliding.begin(), sliding.end());
+  }
   std::vector<Carried> all;
-  for (const Member& m : g.members) {
+  for (std::size_t i = 0; i < who.size(); ++i) {
+    const complementarity::SharingContact& c = springs.contacts[i];
     double T = 0;
-    for (const Eigen::Index k : {m.columns[1], m.columns[2]})
-      if (k >= 0) T = std::hypot(T, forces[k]);
-    all.push_back({m.contact, m.columns[0] >= 0 ? std::max(0.0, forces[m.columns[0]]) : m.bounds.given, T});
+    for (const Eigen::Index k : c.tangents) T = std::hypot(T, springs.forces[k]);
+    all.push_back({who[i], c.normal >= 0 ? std::max(0.0, springs.forces[c.normal]) : c.given, T});
   }
   return all;
 }

@@ -80,12 +80,13 @@ class ContactLoads {
   bool shares_as_spring(int contact, int group) const;
   // [N] How much each of the other contacts can be unloaded, after `prepare`: complementarity/shares/spare_load.hpp.
   double spare_load(int group) const;
-  // The same of a group of which nothing slides, for forces as springs: complementarity/shares/springs_at_rest.hpp.
-  // Fills the forces that have it, by member and direction [N], if they are asked for.
-  double spare_load_as_springs(int group, Vec* forces = nullptr) const;
-  // Normal force and friction [N] of each member, from such forces.
-  std::vector<Carried> carried_as_springs(int group) const;
   double spare_load_with_sliding(int group, const Mat& E) const;
+  // The same for forces as springs: complementarity/shares/springs_at_rest.hpp.
+  double spare_load_as_springs(int group) const;
+  double spare_load_as_springs_with_sliding(int group, const Mat& E) const;
+  // Normal force and friction [N] of each contact, those that slide included, from such forces. E is not used where
+  // nothing slides.
+  std::vector<Carried> carried_as_springs(int group, const Mat& E) const;
   std::vector<ContactDirection> members(int group) const;
   bool sliding_shares() const;      // some shares affect the motion
   void form_resultants(int group);  // to be called after its K has changed
@@ -119,6 +120,12 @@ class ContactLoads {
   bool share_as_springs(Group& group);
   bool slides(int group) const { return !modes_->shared[std::size_t(group)].sliding.empty(); }
   Sharing with_sliding(int group, const Mat& E) const;
+  struct AsSprings {
+    double spare_load = 0;
+    std::vector<complementarity::SharingContact> contacts;
+    Vec forces;  // [N] in their columns
+  };
+  AsSprings as_springs(int group, Sharing all) const;
   double slack(const Group& group) const;
   std::vector<complementarity::SharingContact> sharing(const Group& group) const;
   double scale(const Group& group) const;
