@@ -104,10 +104,11 @@ class ExactModes {
       if (std::find(tried.begin(), tried.end(), roles_) != tried.end()) break;
       tried.push_back(roles_);
       if (!find_forces()) break;
+      const std::vector<ContactRole> found = roles_;
       const double contradicted = change_worst();
       if (contradicted == 0) return true;
       if (contradicted <= mode_tolerance * acceleration_scale() && !settled)
-        settled = Settled{tried.back(), F_, a_, carrying_};
+        settled = Settled{found, F_, a_, carrying_};
     }
     if (!settled) return false;
     roles_ = settled->roles, F_ = settled->F, a_ = settled->a, carrying_ = settled->carrying;
@@ -173,21 +174,29 @@ class ExactModes {
   }
 
   bool find_forces() {
-    carrying_ = carrying_rows(points_, A_, roles_);
-    const CarryingEquations equations(points_, A_, b_, roles_, carrying_);
-    if (!equations.regular()) return false;
-    F_ = equations.forces();
-    a_ = A_ * F_ + b_;
-    if (!F_.allFinite() || idle_ones_are_needed()) return false;
-    share_admissibly(equations);
-    return true;
+    for (;;) {
+      carrying_ = carrying_rows(points_, A_, roles_);
+      const CarryingEquations equations(points_, A_, b_, roles_, carrying_);
+      if (!equations.regular()) return false;
+      F_ = equations.forces();
+      a_ = A_ * F_ + b_;
+      if (!F_.allFinite()) return false;
+      if (change_loose_ones()) continue;
+      share_admissibly(equations);
+      return true;
+    }
   }
 
-  // True if the row of an idle contact does not follow from those that carry.
-  bool idle_ones_are_needed() const {
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      if (roles_[i].idle && F_[points_[i].normal] != 0) return true;
-    return false;
+  // An idle contact whose row does not follow from those that carry is held by none of them: it carries its own force
+  // where that presses, and opens where it pulls. True if there are any.
+  bool change_loose_ones() {
+    bool any = false;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const double own = roles_[i].idle ? F_[points_[i].normal] : 0;
+      if (own > 0) roles_[i] = closed(i), any = true;
+      if (own < 0) roles_[i].closed = roles_[i].idle = false, any = true;
+    }
+    return any;
   }
 
   Index row_at(Index k) const {

@@ -6,9 +6,9 @@
 //
 // A mode that its own forces contradict is changed, one at a time: a contact that pulls opens, one that approaches
 // closes, one whose force leaves its cone slides, one whose force would drive its slip sticks. The nearby solution may
-// have any small error. If sliding contacts share, the normal forces are those of springs, and one that pulls is idle;
-// only if there are no such modes are other forces taken, and then contacts without a force stay idle and those at their
-// bounds stay there.
+// have any small error. If sliding contacts share, the normal forces are those of springs. A contact that pulls is idle
+// as long as others hold its row; where they do not, it opens, or carries a force that presses. Only if there are no
+// such modes are other forces taken, and then contacts without a force stay idle and those at their bounds stay there.
 #pragma once
 
 #include <vector>

@@ -10,8 +10,14 @@ namespace {
 using Tangent = ContactRole::Tangent;
 using Eigen::Index;
 
-// Relative to a row's own stiffness: a smaller pivot counts as 0.
-constexpr double singular = 1e-12;
+// Relative to a row's own stiffness: a smaller pivot counts as 0. Rows that count as independent (row_basis.hpp) may
+// leave as little without any friction; friction makes the equations singular only where it takes most of that away.
+constexpr double singular = 1e-12, left_by_friction = 1e-2;
+
+double last_pivot(const Eigen::FullPivLU<Mat>& lu) {
+  const Index n = lu.rows();
+  return n == 0 ? 1 : std::abs(lu.matrixLU()(n - 1, n - 1));
+}
 
 Vec sliding_under_given_forces(const std::vector<ContactPoint>& points, const std::vector<ContactRole>& roles,
                                Index m) {
@@ -34,6 +40,10 @@ CarryingEquations::CarryingEquations(const std::vector<ContactPoint>& points, co
   scale_ = A.diagonal()(basis_).unaryExpr([](double x) { return std::exp2(-std::round(std::log2(x) / 2)); });
   const Mat scaled = scale_.asDiagonal() * (A(basis_, Eigen::all) * F_lambda_) * scale_.asDiagonal();
   lu_.compute(scaled);
+  regular_ = least_pivot() > singular;
+  if (regular_) return;
+  const Mat without_friction = scale_.asDiagonal() * A(basis_, basis_) * scale_.asDiagonal();
+  regular_ = least_pivot() > left_by_friction * last_pivot(Eigen::FullPivLU<Mat>(without_friction));
 }
 
 Mat CarryingEquations::along_rows(const std::vector<ContactPoint>& points, const std::vector<ContactRole>& roles,
@@ -51,12 +61,7 @@ Mat CarryingEquations::along_rows(const std::vector<ContactPoint>& points, const
 }
 
 double CarryingEquations::least_pivot() const {
-  const Index n = Index(basis_.size());
-  return n == 0 ? 1 : std::abs(lu_.matrixLU()(n - 1, n - 1));
-}
-
-bool CarryingEquations::regular() const {
-  return least_pivot() > singular;
+  return last_pivot(lu_);
 }
 
 Vec CarryingEquations::correction(const Vec& a) const {

@@ -18,7 +18,7 @@ class CarryingEquations {
                     const std::vector<ContactRole>& roles, const CarryingRows& carrying);
 
   // False: they have no solution or many, as at Painleve's critical coefficient.
-  bool regular() const;
+  bool regular() const { return regular_; }
   double least_pivot() const;  // with rows in their own units
   Vec forces() const;          // F
   // The change of lambda that cancels the remaining accelerations `a` along the basis.
@@ -31,6 +31,7 @@ class CarryingEquations {
   std::vector<Eigen::Index> basis_;
   Vec F_0_, rest_, scale_;  // rest_: accelerations by F_0
   Mat F_lambda_;            // W share
+  bool regular_ = true;
   Eigen::FullPivLU<Mat> lu_;
 };
 
