@@ -31,10 +31,11 @@ bool ContactModes::separates(const TouchingContact& c) const {
   return !c.keeps_rates && c.restitution < 1 && c.after > scale_.of(c.contact).rest_speed();
 }
 
-// It stuck, and the impact made it slip. (An impact is decided by impulses; the finite load contributes none.)
+// It stuck or was open, and slips after the impact. (An impact is decided by impulses; the finite load contributes
+// none.)
 bool ContactModes::begins_to_slip(const TouchingContact& c) const {
-  return !c.keeps_rates && c.was_closed && before_.contacts[c.contact].friction == Friction::stick &&
-         c.slip_after.norm() > scale_.of(c.contact).rest_speed();
+  const bool slid = c.was_closed && before_.contacts[c.contact].friction != Friction::stick;
+  return !c.keeps_rates && !slid && c.slip_after.norm() > scale_.of(c.contact).rest_speed();
 }
 
 const TouchingContact* ContactModes::beginning_to_slip(const Participant& p) const {

@@ -21,11 +21,12 @@
 //     contacts with e > 0, so this ends.
 //     A contact may open only because others struck, by too little to be followed (a block that rocks to rest, discs of
 //     a pile that knock against each other), whether or not it had an impulse of its own in that impact. Such contacts
-//     keep no rate: their impacts would go on without end in a finite time. A contact that stuck keeps no slip from the
-//     impact if its friction ends the slip within a distance as short. An impact is decided by impulses alone; where
-//     these are small beside the loads times the shortest time that steps resolve, the loads decide. The problem of
-//     rule 3 with all these contacts at rest finds those that rest. Then v is projected onto the motions in which they,
-//     and all other contacts without a rate, have no rate.
+//     keep no rate: their impacts would go on without end in a finite time. A contact that stuck or was open keeps no
+//     slip from the impact if its friction ends the slip within a distance as short: until then it may open others,
+//     whose impacts leave a slip again. An impact is decided by impulses alone; where these are small beside the loads
+//     times the shortest time that steps resolve, the loads decide. The problem of rule 3 with all these contacts at
+//     rest finds those that rest. Then v is projected onto the motions in which they, and all other contacts without a
+//     rate, have no rate.
 //     This is the least change of v, so it takes energy; the loss is reported with the impact. Where ending all
 //     these rates would make another contact approach, the fastest of them are left. A contact whose rate it does not
 //     end, since its row nearly depends on others, keeps that rate and opens.
