@@ -10,9 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "feasible_point.hpp"
+#include "support/between.hpp"
 
 namespace trammel::complementarity {
 namespace {
+
+using test::between;
 
 constexpr double carried = 1e-9;
 
@@ -148,15 +151,14 @@ struct Box {
   std::vector<SharingContact> contacts;
   Mat E;
   Box(std::mt19937& random, int count) : E(3, 2 * count) {
-    const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
     for (int k = 0; k < count; ++k) {
-      const int side = k < 2 ? 0 : int(any(0, 4));  // floor, ceiling, left, right
-      const double along = any(-1, 1), sign = side % 2 == 0 ? 1 : -1;
+      const int side = k < 2 ? 0 : int(between(random, 0, 4));  // floor, ceiling, left, right
+      const double along = between(random, -1, 1), sign = side % 2 == 0 ? 1 : -1;
       const Eigen::Vector2d n = side < 2 ? Eigen::Vector2d(0, sign) : Eigen::Vector2d(sign, 0), t(n[1], -n[0]),
                             at = side < 2 ? Eigen::Vector2d(along, -sign / 2) : Eigen::Vector2d(-sign, along / 2);
       E.col(2 * k) << n, at[0] * n[1] - at[1] * n[0];
       E.col(2 * k + 1) << t, at[0] * t[1] - at[1] * t[0];
-      contacts.push_back({2 * k, {2 * k + 1}, any(0.05, 1.2), 0});
+      contacts.push_back({2 * k, {2 * k + 1}, between(random, 0.05, 1.2), 0});
     }
   }
   // Contacts in another order.
@@ -168,6 +170,10 @@ struct Box {
     }
   }
 };
+
+Vec random_load(std::mt19937& random) {
+  return Vec{{between(random, -1.5, 1.5), 1, between(random, -1, 1)}};
+}
 
 // By linear programs for all sets of contacts that press: N = E_n^T y of these, and E_n^T y <= 0 of the others.
 bool some_set_holds(const Box& box, const Vec& load) {
@@ -194,8 +200,7 @@ TEST(SpringsAtRest, HoldABoxWhereverSomeSetOfItsContactsDoes) {
   int held = 0, only_by_other_forces = 0;
   for (int i = 0; i < 400; ++i) {
     const Box box(random, 4 + i % 3);
-    std::uniform_real_distribution<double> part(-1, 1);
-    const Vec load{{1.5 * part(random), 1, part(random)}};
+    const Vec load = random_load(random);
     Vec F;
     const bool holds = forces_as_springs(box.contacts, box.E, load, carried, F);
     EXPECT_EQ(holds, some_set_holds(box, load)) << i;
@@ -211,8 +216,7 @@ TEST(SpringsAtRest, HoldABoxInEveryOrderOfItsContacts) {
   int held = 0, let_go = 0;
   for (int i = 0; i < 200; ++i) {
     const Box box(random, 4 + i % 3);
-    std::uniform_real_distribution<double> part(-1, 1);
-    const Vec load{{1.5 * part(random), 1, part(random)}};
+    const Vec load = random_load(random);
     Vec F;
     const bool holds = forces_as_springs(box.contacts, box.E, load, carried, F);
     const double spare = spare_load_as_springs(box.contacts, box.E, load);
@@ -237,15 +241,14 @@ TEST(SpringsAtRest, HoldABoxInEveryOrderOfItsContacts) {
 // The load is that of springs which a random push displaces, with a part of the friction that these allow.
 TEST(SpringsAtRest, HoldManyContactsUnderALoadThatSpringsCarry) {
   std::mt19937 random(6);
-  const auto any = [&random](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
   int held = 0;
   for (int i = 0; i < 200; ++i) {
     const Box box(random, 9 + i % 8);
-    const Vec push{{any(-1, 1), any(0, 1), any(-1, 1)}};
+    const Vec push{{between(random, -1, 1), between(random, 0, 1), between(random, -1, 1)}};
     Vec F = Vec::Zero(box.E.cols());
     for (const SharingContact& c : box.contacts) {
       F[c.normal] = std::max(0.0, box.E.col(c.normal).dot(push));
-      F[c.tangents[0]] = any(-0.95, 0.95) * c.coefficient * F[c.normal];
+      F[c.tangents[0]] = between(random, -0.95, 0.95) * c.coefficient * F[c.normal];
     }
     held += forces_as_springs(box.contacts, box.E, box.E * F, carried, F);
   }

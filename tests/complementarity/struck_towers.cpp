@@ -6,16 +6,14 @@
 #include <random>
 
 #include "planar_bodies.hpp"
+#include "support/between.hpp"
 
 namespace trammel::complementarity {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-double between(std::mt19937& random, double a, double b) {
-  return std::uniform_real_distribution<double>(a, b)(random);
-}
+using test::between;
 
 // By how much corners are apart, or blocks turned against each other.
 double little_off(std::mt19937& random) {
