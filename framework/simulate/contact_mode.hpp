@@ -109,7 +109,8 @@
 //     normal forces, that of its sliding ones (feet on a belt below a table) follows from them, those at their bounds
 //     let go, and all modes are decided again: until the normal forces in the modes decided are those of the friction,
 //     up to their errors if the modes stay. So a clearance of 0 is the limit of small ones, and rigid contacts move as
-//     stiff compliant ones. Where this comes to no end (a stack that has locked while it slid), rest stays.
+//     stiff compliant ones. Where this comes to no end (a stack that has locked while it slid), rest stays. Rule 12
+//     decides groups in which something slides and a contact at rest is at its bound.
 //
 // `rebound: constrained` makes candidates of contacts that separate at e u-. `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0. `onset: next_step` only changes when an event is seen.
