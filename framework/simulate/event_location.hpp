@@ -49,8 +49,8 @@
 
 #include "linear/dense/block_signs.hpp"
 #include "run/contact_scale.hpp"
-#include "simulate/contact_mode.hpp"
 #include "simulate/root_bracket.hpp"
+#include "simulate/settling/contact_mode.hpp"
 #include "system/between_states.hpp"
 
 namespace trammel::simulate {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "simulate/contact_mode.hpp"
+#include "simulate/settling/contact_mode.hpp"
 
 #include "support/run_scene.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "simulate/contact_mode.hpp"
+#include "simulate/settling/contact_mode.hpp"
 
 namespace trammel::simulate {
 

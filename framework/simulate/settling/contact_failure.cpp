@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "run/run_failed.hpp"
-#include "simulate/contact_mode.hpp"
+#include "simulate/settling/contact_mode.hpp"
 
 namespace trammel::simulate {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "simulate/contact/law_speeds.hpp"
-#include "simulate/contact_mode.hpp"
+#include "simulate/settling/contact_mode.hpp"
 #include "system/point/locks_itself.hpp"
 
 namespace trammel::simulate {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "complementarity/exact_modes.hpp"
-#include "simulate/contact_mode.hpp"
+#include "simulate/settling/contact_mode.hpp"
 #include "system/point/locks_itself.hpp"
 
 namespace trammel::simulate {

@@ -19,8 +19,8 @@
 // decides for it, as after rule 6. If no further joint lets go in a cycle, no modes were found, which proves nothing.
 #include <algorithm>
 
-#include "simulate/contact_mode.hpp"
 #include "simulate/impact/bearing_impulses.hpp"
+#include "simulate/settling/contact_mode.hpp"
 #include "system/point/locks_itself.hpp"
 
 namespace trammel::simulate {

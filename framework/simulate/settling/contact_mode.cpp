@@ -1,4 +1,4 @@
-#include "simulate/contact_mode.hpp"
+#include "simulate/settling/contact_mode.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "simulate/contact/ending_impulses.hpp"
-#include "simulate/contact_mode.hpp"
+#include "simulate/settling/contact_mode.hpp"
 
 namespace trammel::simulate {
 
