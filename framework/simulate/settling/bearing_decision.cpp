@@ -84,15 +84,15 @@ void ContactModes::load_bearings_at_rest(const State& state, const model::Modes&
     model::ContactMode& mode = at_rest.contacts[p.contact];
     const bool joint = system_.model().contacts[p.contact].joint.has_value();
     if (!joint) {
-      mode = before_.contacts[p.contact];
+      mode = at_.before.contacts[p.contact];
       continue;
     }
     mode.closed = true;
     if (!system_.model().contacts[p.contact].coulomb || p.tangent == Participant::Tangent::none) continue;
     take_tangent(p, system_, mode);
   }
-  at_rest.shared = before_.shared;
-  if (!all_have_rows(before_.shared, at_rest)) {  // the groups of friction as it is now, also of the other contacts
+  at_rest.shared = at_.before.shared;
+  if (!all_have_rows(at_.before.shared, at_rest)) {  // the groups of friction as it is now, also of the other contacts
     for (const Participant& p : problem_.who)
       if (system_.model().contacts[p.contact].coulomb && p.tangent != Participant::Tangent::none)
         take_tangent(p, system_, at_rest.contacts[p.contact]);
@@ -104,7 +104,7 @@ void ContactModes::load_bearings_at_rest(const State& state, const model::Modes&
 // The joint was at rest in the modes that gave its load (null: the modes of load_bearings_at_rest) and slides under it.
 bool ContactModes::was_not_held(const Participant& p, const model::Modes* loads) const {
   return system_.model().contacts[p.contact].joint && p.tangent == Participant::Tangent::resting &&
-         modes_.contacts[p.contact].friction == Friction::slide &&
+         at_.modes.contacts[p.contact].friction == Friction::slide &&
          (!loads || loads->contacts[p.contact].friction == Friction::stick);
 }
 
@@ -116,7 +116,7 @@ complementarity::ContactSolution ContactModes::take_verdicts_under_loads(const S
     if (system_.model().contacts[asked[i].contact].joint) asked[i].given = problem_.who[i].given;
   for (;;) {
     problem_.who = asked;
-    modes_ = open;
+    at_.modes = open;
     const complementarity::ContactSolution solution = take_verdicts(state);
     if (solution.outcome != LcpOutcome::solved || share_within_bounds(state)) return solution;
     for (std::size_t i = 0; i < asked.size(); ++i) asked[i].let_go = problem_.who[i].let_go;
@@ -140,10 +140,10 @@ complementarity::ContactSolution ContactModes::decide_bearings_at_rest(const Sta
       problem_.who = asked;
       if (bearings.solve(problem_, nothing, from, applied).outcome != LcpOutcome::solved) continue;
       if (take_verdicts_under_loads(state, asked, open).outcome != LcpOutcome::solved) continue;
-      const model::Modes found = modes_;
+      const model::Modes found = at_.modes;
       load_bearings(state, found);
       const auto solution = take_verdicts_under_loads(state, asked, open);
-      if (solution.outcome != LcpOutcome::solved || !agree(modes_, found)) continue;
+      if (solution.outcome != LcpOutcome::solved || !agree(at_.modes, found)) continue;
       bearings_undecided_ = false;
       return solution;
     } catch (const model::LocksItself&) {
@@ -154,7 +154,7 @@ complementarity::ContactSolution ContactModes::decide_bearings_at_rest(const Sta
 
 complementarity::ContactSolution ContactModes::decide_with_bearings(const State& state) {
   const std::vector<Participant> asked = problem_.who;
-  const model::Modes open = modes_;
+  const model::Modes open = at_.modes;
   const auto rests = [](const Participant& p) { return p.tangent != Participant::Tangent::sliding; };
   const bool all_rest = std::all_of(asked.begin(), asked.end(), rests);
   try {
@@ -179,17 +179,17 @@ complementarity::ContactSolution ContactModes::decide_in_rounds(const State& sta
     const complementarity::ContactSolution solution = take_verdicts_under_loads(state, asked, open);
     if (solution.outcome != LcpOutcome::solved) return solution;
     const model::Modes* last = had.empty() ? nullptr : &had.back();
-    if (last && agree(modes_, *last)) return solution;
+    if (last && agree(at_.modes, *last)) return solution;
     for (std::size_t i = 0; i < asked.size(); ++i) not_held[i] = not_held[i] || was_not_held(problem_.who[i], last);
-    if (std::any_of(had.begin(), had.end(), [this](const model::Modes& modes) { return agree(modes_, modes); })) {
+    if (std::any_of(had.begin(), had.end(), [this](const model::Modes& modes) { return agree(at_.modes, modes); })) {
       bool more = false;
       for (std::size_t i = 0; i < asked.size(); ++i)
         if (not_held[i] && !asked[i].let_go) asked[i].let_go = more = true;
       if (!more) break;
       had.clear();
     }
-    had.push_back(modes_);
-    load_bearings(state, modes_);
+    had.push_back(at_.modes);
+    load_bearings(state, at_.modes);
   }
   bearings_undecided_ = true;
   return {LcpOutcome::gave_up, 0};

@@ -19,29 +19,29 @@ std::size_t ContactModes::Brief::first() const {
 
 bool ContactModes::cannot_follow(int contact, double separation, double acceleration) const {
   if (!(acceleration < 0)) return false;
-  if (steps_.fixed) return 2 * separation < chatter_steps_ * *steps_.fixed * -acceleration;
-  const double error = scale_.of(contact).error_of_position(steps_.tolerance);
-  return separation * separation < chatter_steps_ * error * 2 * -acceleration;
+  if (scene_.steps.fixed) return 2 * separation < scene_.chatter_steps * *scene_.steps.fixed * -acceleration;
+  const double error = scene_.scale.of(contact).error_of_position(scene_.steps.tolerance);
+  return separation * separation < scene_.chatter_steps * error * 2 * -acceleration;
 }
 
 // It parts by its own rebound or by the impulses of others, whether it was closed, only touched, or was pressed in the
 // same impact. If one of these were left out, two corners of a box would throw each other up in turn, without end. With
 // e = 1 flights do not become shorter.
 bool ContactModes::separates(const TouchingContact& c) const {
-  return !c.keeps_rates && c.restitution < 1 && c.after > scale_.of(c.contact).rest_speed();
+  return !c.keeps_rates && c.restitution < 1 && c.after > scene_.scale.of(c.contact).rest_speed();
 }
 
 // It stuck or was open, and slips after the impact. (An impact is decided by impulses; the finite load contributes
 // none.)
 bool ContactModes::begins_to_slip(const TouchingContact& c) const {
-  const bool slid = c.was_closed && before_.contacts[c.contact].friction != Friction::stick;
-  return !c.keeps_rates && !slid && c.slip_after.norm() > scale_.of(c.contact).rest_speed();
+  const bool slid = c.was_closed && at_.before.contacts[c.contact].friction != Friction::stick;
+  return !c.keeps_rates && !slid && c.slip_after.norm() > scene_.scale.of(c.contact).rest_speed();
 }
 
 const TouchingContact* ContactModes::beginning_to_slip(const Participant& p) const {
-  const auto c = std::find_if(touching_.begin(), touching_.end(),
+  const auto c = std::find_if(at_.touching.begin(), at_.touching.end(),
                               [&](const TouchingContact& each) { return each.contact == p.contact; });
-  return c != touching_.end() && begins_to_slip(*c) ? &*c : nullptr;
+  return c != at_.touching.end() && begins_to_slip(*c) ? &*c : nullptr;
 }
 
 // All contacts with so small a separation or slip are judged together: in a pile each flies only as long as its
@@ -49,27 +49,27 @@ const TouchingContact* ContactModes::beginning_to_slip(const Participant& p) con
 // acceleration that their own force prevents; those that stick stop, with the deceleration that their friction can
 // still give.
 ContactModes::Brief ContactModes::too_brief(const State& state, const ContactChanges& changes) {
-  Brief brief{std::vector<bool>(touching_.size(), false), std::vector<bool>(touching_.size(), false)};
+  Brief brief{std::vector<bool>(at_.touching.size(), false), std::vector<bool>(at_.touching.size(), false)};
   const auto moves = [this](const TouchingContact& c) { return separates(c) || begins_to_slip(c); };
-  if (chatter_steps_ <= 0 || std::none_of(touching_.begin(), touching_.end(), moves)) return brief;
+  if (scene_.chatter_steps <= 0 || std::none_of(at_.touching.begin(), at_.touching.end(), moves)) return brief;
   system_.move_to(state.t, state.q, state.v);
   find_candidates(changes);
   const std::size_t at_rest_now = candidates_.size();
-  model::Modes open = modes_;
+  model::Modes open = at_.modes;
   open_all(open);
   system_.set_modes(open);
   system_.move_to(state.t, state.q, state.v);
   std::map<std::size_t, double> fastest = fastest_gap_accelerations();
-  for (const TouchingContact& c : touching_)
+  for (const TouchingContact& c : at_.touching)
     if (separates(c) && !contains(candidates_, c.contact) &&
-        cannot_follow(c.contact, c.after, -fastest[scale_.island(c.contact)]))
+        cannot_follow(c.contact, c.after, -fastest[scene_.scale.island(c.contact)]))
       candidates_.push_back(c.contact);
   gather(state, changes, true);
   bool slips = false;
   for (Participant& p : problem_.who)
     if (p.tangent == Tangent::sliding && beginning_to_slip(p)) p.tangent = Tangent::resting, slips = true;
   if (slips || candidates_.size() > at_rest_now) judge_brief(state, at_rest_now, brief);
-  system_.set_modes(before_);
+  system_.set_modes(at_.before);
   system_.move_to(state.t, state.q, state.v);
   return brief;
 }
@@ -88,10 +88,10 @@ void ContactModes::judge_brief(const State& state, std::size_t at_rest_now, Brie
   } while (let_fast_slips_go());
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     const Participant& p = problem_.who[i];
-    const auto c = std::find_if(touching_.begin(), touching_.end(),
+    const auto c = std::find_if(at_.touching.begin(), at_.touching.end(),
                                 [&](const TouchingContact& each) { return each.contact == p.contact; });
-    if (c == touching_.end() || !(p.N > 0)) continue;
-    const auto k = std::size_t(c - touching_.begin());
+    if (c == at_.touching.end() || !(p.N > 0)) continue;
+    const auto k = std::size_t(c - at_.touching.begin());
     brief.stops[k] = p.tangent == Tangent::resting && begins_to_slip(*c);
     brief.falls[k] = i >= at_rest_now && i < candidates_.size() &&
                      cannot_follow(c->contact, c->after, problem_.acceleration_without(i));
@@ -122,8 +122,8 @@ bool ContactModes::let_fast_slips_go() {
 std::map<std::size_t, double> ContactModes::fastest_gap_accelerations() {
   system_.accelerate({}, a_, lambda_);
   std::map<std::size_t, double> fastest;
-  for (const TouchingContact& c : touching_) {
-    double& own = fastest[scale_.island(c.contact)];
+  for (const TouchingContact& c : at_.touching) {
+    double& own = fastest[scene_.scale.island(c.contact)];
     own = std::max(own, std::abs(system_.acceleration({c.contact, 0}, a_)));
   }
   return fastest;
@@ -132,8 +132,8 @@ std::map<std::size_t, double> ContactModes::fastest_gap_accelerations() {
 // Sets e = 0 for rebounds that are too short to follow; true if there are any.
 bool ContactModes::capture_chatter(const std::vector<bool>& falls) {
   bool captured = false;
-  for (std::size_t i = 0; i < touching_.size(); ++i)
-    if (falls[i] && touching_[i].restitution > 0) touching_[i].restitution = 0, captured = true;
+  for (std::size_t i = 0; i < at_.touching.size(); ++i)
+    if (falls[i] && at_.touching[i].restitution > 0) at_.touching[i].restitution = 0, captured = true;
   return captured;
 }
 
@@ -141,8 +141,8 @@ bool ContactModes::capture_chatter(const std::vector<bool>& falls) {
 // nothing connects with these keep all their rates, drift included. Returns the energy that this takes [J].
 double ContactModes::end_rocking(State& state, const Brief& brief) {
   std::set<std::size_t> islands;  // of the scene
-  for (std::size_t i = 0; i < touching_.size(); ++i)
-    if (brief.falls[i] || brief.stops[i]) islands.insert(scale_.island(touching_[i].contact));
+  for (std::size_t i = 0; i < at_.touching.size(); ++i)
+    if (brief.falls[i] || brief.stops[i]) islands.insert(scene_.scale.island(at_.touching[i].contact));
   double taken = 0;
   for (const std::size_t island : islands) taken += end_rocking_of(island, state, brief);
   return taken;
@@ -153,12 +153,12 @@ double ContactModes::end_rocking(State& state, const Brief& brief) {
 // motion; to end one makes the other one approach, so that its impact would restore them, without end. So the fastest
 // rates go on, as few as let all others end without this.
 double ContactModes::end_rocking_of(std::size_t island, State& state, Brief brief) {
-  const std::vector<TouchingContact> after_impact = touching_;
+  const std::vector<TouchingContact> after_impact = at_.touching;
   const Vec v_after_impact = state.v;
   do {
     const double taken = end_rates_of(island, state, brief);
     if (none_made_to_approach(island, after_impact)) return taken;
-    touching_ = after_impact;
+    at_.touching = after_impact;
     state.v = v_after_impact;
     system_.move_to(state.t, state.q, state.v);
   } while (leave_fastest(island, brief));
@@ -168,21 +168,21 @@ double ContactModes::end_rocking_of(std::size_t island, State& state, Brief brie
 // Of contacts whose rows depend on each other, some keep the rate that another one would have to exceed (corners at one
 // point, of bodies that turn against each other): these part.
 double ContactModes::end_rates_of(std::size_t island, State& state, const Brief& brief) {
-  const auto asked = [&](const TouchingContact& c) { return scale_.island(c.contact) == island; };
-  const auto rest_speed = [this](const TouchingContact& c) { return scale_.of(c.contact).rest_speed(); };
-  std::vector<bool> rests(touching_.size(), false);
-  for (std::size_t i = 0; i < touching_.size(); ++i)  // one whose slip stops may have a rate that steps left
-    rests[i] =
-        asked(touching_[i]) && (brief.falls[i] || brief.stops[i] || touching_[i].after <= rest_speed(touching_[i]));
+  const auto asked = [&](const TouchingContact& c) { return scene_.scale.island(c.contact) == island; };
+  const auto rest_speed = [this](const TouchingContact& c) { return scene_.scale.of(c.contact).rest_speed(); };
+  std::vector<bool> rests(at_.touching.size(), false);
+  for (std::size_t i = 0; i < at_.touching.size(); ++i)  // one whose slip stops may have a rate that steps left
+    rests[i] = asked(at_.touching[i]) &&
+               (brief.falls[i] || brief.stops[i] || at_.touching[i].after <= rest_speed(at_.touching[i]));
   double taken = 0;
   for (bool any = true; any;) {
     taken += take_rates(state, rests, brief.stops);
     any = false;
-    for (std::size_t i = 0; i < touching_.size(); ++i) {
-      TouchingContact& c = touching_[i];
+    for (std::size_t i = 0; i < at_.touching.size(); ++i) {
+      TouchingContact& c = at_.touching[i];
       if (!asked(c)) continue;
       const double left = system_.gap_rate(c.contact);
-      c.after = rests[i] && std::abs(left) <= scale_.of(c.contact).left_by_impacts() ? 0 : left;
+      c.after = rests[i] && std::abs(left) <= scene_.scale.of(c.contact).left_by_impacts() ? 0 : left;
       if (!rests[i] && c.after < -rest_speed(c)) rests[i] = any = true;
     }
   }
@@ -191,8 +191,8 @@ double ContactModes::end_rates_of(std::size_t island, State& state, const Brief&
 
 bool ContactModes::none_made_to_approach(std::size_t island, const std::vector<TouchingContact>& after_impact) const {
   return std::none_of(after_impact.begin(), after_impact.end(), [&](const TouchingContact& c) {
-    const double least = -scale_.of(c.contact).left_by_impacts();
-    return scale_.island(c.contact) == island && system_.gap_rate(c.contact) < std::min(c.after, 0.0) + least;
+    const double least = -scene_.scale.of(c.contact).left_by_impacts();
+    return scene_.scale.island(c.contact) == island && system_.gap_rate(c.contact) < std::min(c.after, 0.0) + least;
   });
 }
 
@@ -200,9 +200,9 @@ bool ContactModes::none_made_to_approach(std::size_t island, const std::vector<T
 bool ContactModes::leave_fastest(std::size_t island, Brief& brief) const {
   std::size_t fastest = 0, rates = 0;
   double largest = 0;
-  for (std::size_t i = 0; i < touching_.size(); ++i) {
-    const TouchingContact& c = touching_[i];
-    if (scale_.island(c.contact) != island || !(brief.falls[i] || brief.stops[i])) continue;
+  for (std::size_t i = 0; i < at_.touching.size(); ++i) {
+    const TouchingContact& c = at_.touching[i];
+    if (scene_.scale.island(c.contact) != island || !(brief.falls[i] || brief.stops[i])) continue;
     ++rates;
     const double rate = std::max(brief.falls[i] ? c.after : 0, brief.stops[i] ? c.slip_after.norm() : 0);
     if (rate > largest) largest = rate, fastest = i;
@@ -216,11 +216,11 @@ bool ContactModes::leave_fastest(std::size_t island, Brief& brief) const {
 // the work of the impulses against the rates that they end; it does not include work of a moving base.
 double ContactModes::take_rates(State& state, const std::vector<bool>& rests, const std::vector<bool>& stops) {
   std::vector<model::ContactDirection> held;
-  for (std::size_t i = 0; i < touching_.size(); ++i) {
-    const TouchingContact& c = touching_[i];
+  for (std::size_t i = 0; i < at_.touching.size(); ++i) {
+    const TouchingContact& c = at_.touching[i];
     if (!rests[i]) continue;
     held.push_back({c.contact, 0});
-    const bool sticks = stops[i] || c.slip_after.norm() <= scale_.of(c.contact).rest_speed();
+    const bool sticks = stops[i] || c.slip_after.norm() <= scene_.scale.of(c.contact).rest_speed();
     if (system_.model().contacts[c.contact].coulomb && sticks)
       for (int k = 1; k <= system_.tangents(c.contact); ++k) held.push_back({c.contact, k});
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulate/contact/law_speeds.hpp"
 #include "simulate/settling/contact_mode.hpp"
 #include "system/point/locks_itself.hpp"
 
@@ -37,7 +36,7 @@ constexpr double part_of_step = 0.1;
 }  // namespace
 
 void ContactModes::open_all(model::Modes& modes) const {
-  for (const TouchingContact& c : touching_)
+  for (const TouchingContact& c : at_.touching)
     modes.contacts[c.contact].closed = false, modes.contacts[c.contact].friction = Friction::none;
   for (std::size_t i = 0; i < modes.contacts.size(); ++i)
     if (system_.model().contacts[i].joint)
@@ -48,48 +47,40 @@ void ContactModes::open_all(model::Modes& modes) const {
 // [m/s] Round-off that the impact leaves in the rates of this contact: of the rates before it in its island.
 double ContactModes::error_of_impact(int contact) const {
   double scale = 0;
-  for (const TouchingContact& c : touching_)
-    if (scale_.island(c.contact) == scale_.island(contact))
+  for (const TouchingContact& c : at_.touching)
+    if (scene_.scale.island(c.contact) == scene_.scale.island(contact))
       scale = std::max({scale, std::abs(c.before), c.slip_before.norm()});
   return error_of_impacts * scale;
 }
 
 void ContactModes::find_candidates(const ContactChanges& changes) {
   candidates_.clear();
-  for (const TouchingContact& c : touching_) {
-    const double rest_speed = error_of_impact(c.contact) + scale_.of(c.contact).rest_speed();
-    const bool constrained = c.impulse > 0 && treatment(c.contact).rebound == Restitution::Rebound::constrained;
+  for (const TouchingContact& c : at_.touching) {
+    const double rest_speed = error_of_impact(c.contact) + scene_.scale.of(c.contact).rest_speed();
+    const bool constrained = c.impulse > 0 && scene_.treatment(c.contact).rebound == Restitution::Rebound::constrained;
     // A closed contact may have kept the rate that the steps left in it, or have lost it with others (rule 2).
     const bool rests = std::abs(c.after) <= rest_speed || (c.was_closed && std::abs(c.after - c.before) <= rest_speed);
-    const bool released = contains(changes.released, c.contact) && c.impulse == 0 && !shared_before_[c.contact];
+    const bool released = contains(changes.released, c.contact) && c.impulse == 0 && !at_.shared_before[c.contact];
     if ((rests || constrained) && !released) candidates_.push_back(c.contact);
   }
 }
 
-double ContactModes::least_slip(int contact) const {
-  return system_.model().world.space == Space::spatial ? scale_.of(contact).least_speed() : 0;
-}
-
-double ContactModes::stick_speed(int contact) const {
-  return simulate::stick_speed(system_.model().contacts[contact], scale_.of(contact));
-}
-
 // [m/s] Slip across its former direction that counts as none; with fixed steps also what a part of a step takes away.
 double ContactModes::unresolved(int contact, const State& state) {
-  const model::ContactMode& mode = before_.contacts[contact];
-  if (!steps_.fixed || system_.tangents(contact) == 1) return mode.least_slip;
-  const double in_a_step = *steps_.fixed * system_.slip_acceleration(contact, state.a).norm();
+  const model::ContactMode& mode = at_.before.contacts[contact];
+  if (!scene_.steps.fixed || system_.tangents(contact) == 1) return mode.least_slip;
+  const double in_a_step = *scene_.steps.fixed * system_.slip_acceleration(contact, state.a).norm();
   return std::max(mode.least_slip, part_of_step * in_a_step);
 }
 
 double ContactModes::least_acceleration(int contact) const {
-  const double largest = largest_.empty() ? 0 : largest_[std::size_t(contact)];
-  return std::max(scale_.of(contact).no_acceleration(), error_of_accelerations * largest);
+  const double largest = at_.largest.empty() ? 0 : at_.largest[std::size_t(contact)];
+  return std::max(scene_.scale.of(contact).no_acceleration(), error_of_accelerations * largest);
 }
 
 // Of a solution with the violation found.
 double ContactModes::least_acceleration(const Participant& p) const {
-  return std::max(p.nothing, undecided * p.violation * largest_[std::size_t(p.contact)]);
+  return std::max(p.nothing, undecided * p.violation * at_.largest[std::size_t(p.contact)]);
 }
 
 // Rule 5: whether the contact is at rest in the tangent, and its coefficients.
@@ -106,9 +97,9 @@ void ContactModes::add_friction(const State& state, Participant& p, const Contac
   p.mu_0 = entry.coulomb->static_coefficient();
   p.mu = entry.coulomb->kinetic_coefficient(speed);
   if (p.mu_0 == 0) return;
-  const model::ContactMode& before = before_.contacts[p.contact];
+  const model::ContactMode& before = at_.before.contacts[p.contact];
   const bool was_closed = before.closed && before.friction != Friction::none;
-  const double rest_speed = std::max(stick_speed(p.contact), jumped ? error_of_impact(p.contact) : 0);
+  const double rest_speed = std::max(scene_.stick_speed(p.contact), jumped ? error_of_impact(p.contact) : 0);
   bool rests = speed <= rest_speed;
   Tangential unit = direction_of(slip);
   p.direction = unit;
@@ -124,7 +115,7 @@ void ContactModes::add_friction(const State& state, Participant& p, const Contac
   }
   p.tangent = rests ? Tangent::resting : Tangent::sliding;
   if (!rests) p.ratio = -p.mu * unit;
-  p.let_go = p.yielded = rests && !shared_before_[p.contact] && contains(changes.yielded, p.contact) &&
+  p.let_go = p.yielded = rests && !at_.shared_before[p.contact] && contains(changes.yielded, p.contact) &&
                          entry.coulomb->decide() == SetValuedFriction::Decide::at_events;
 }
 
@@ -136,13 +127,13 @@ void ContactModes::gather(const State& state, const ContactChanges& changes, boo
     add_friction(state, p, changes, jumped);
     problem_.who.push_back(p);
   }
-  for (int i = 0; i < int(modes_.contacts.size()); ++i) {
+  for (int i = 0; i < int(at_.modes.contacts.size()); ++i) {
     const model::ContactEntry& entry = system_.model().contacts[i];
     if (entry.joint) {
       Participant p{.contact = i, .unilateral = false, .given_pushes = true};
       add_friction(state, p, changes, jumped);
       problem_.who.push_back(p);
-    } else if (entry.force && entry.coulomb && modes_.contacts[i].closed) {
+    } else if (entry.force && entry.coulomb && at_.modes.contacts[i].closed) {
       gather_compliant(i, state, changes, jumped);
     }
   }
@@ -152,10 +143,10 @@ void ContactModes::gather(const State& state, const ContactChanges& changes, boo
 void ContactModes::gather_compliant(int contact, const State& state, const ContactChanges& changes, bool jumped) {
   Participant p{.contact = contact, .unilateral = false};
   add_friction(state, p, changes, jumped);
-  model::ContactMode& mode = modes_.contacts[contact];
+  model::ContactMode& mode = at_.modes.contacts[contact];
   mode.friction = p.tangent == Tangent::sliding ? Friction::slide : Friction::none;
   mode.direction = p.direction;
-  mode.least_slip = least_slip(contact);
+  mode.least_slip = scene_.least_slip(contact);
   if (p.tangent == Tangent::resting) problem_.who.push_back(p);
 }
 
@@ -172,11 +163,11 @@ bool ContactModes::stop_with_others(ContactChanges& changes) {
   const std::size_t before = changes.stopped.size();
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     const int contact = problem_.who[i].contact;
-    const model::ContactMode& slid = before_.contacts[contact];
+    const model::ContactMode& slid = at_.before.contacts[contact];
     if (problem_.who[i].tangent != Tangent::sliding || !slid.closed || contains(changes.stopped, contact)) continue;
     if (!system_.model().contacts[contact].coulomb) continue;
     const double speed = system_.slip(contact).norm();
-    const Scale scale = scale_.of(contact);
+    const Scale scale = scene_.scale.of(contact);
     const bool held = independent[i] <= (joints ? scale.drift() : scale.rest_speed());
     if (speed < slid.least_slip || (held && speed <= scale.drift())) changes.stopped.push_back(contact);
   }
@@ -190,8 +181,8 @@ bool ContactModes::end_drift(State& state, ContactChanges& changes, bool jumped)
   for (Participant& p : problem_.who) {
     if (p.tangent != Tangent::resting) continue;
     p.a_t = system_.slip(p.contact);
-    const double drift = p.a_t.norm(), least = least_slip(p.contact);  // 0 in the plane, where no slip turns
-    drifted = drifted || drift > stick_speed(p.contact);
+    const double drift = p.a_t.norm(), least = scene_.least_slip(p.contact);  // 0 in the plane, where no slip turns
+    drifted = drifted || drift > scene_.stick_speed(p.contact);
     turns = turns || (least > 0 && drift > no_turn * least);
   }
   if (!drifted && !turns) return false;
@@ -202,9 +193,9 @@ bool ContactModes::end_drift(State& state, ContactChanges& changes, bool jumped)
     if (p.tangent == Tangent::sliding) add_friction(state, p, changes, jumped);
   if (!drifted) return false;
   bool more = false;
-  for (int i = 0; i < int(before_.contacts.size()); ++i) {
-    if (!before_.contacts[i].closed || before_.contacts[i].friction != Friction::slide) continue;
-    if (contains(changes.stopped, i) || system_.slip(i).norm() > scale_.of(i).rest_speed()) continue;
+  for (int i = 0; i < int(at_.before.contacts.size()); ++i) {
+    if (!at_.before.contacts[i].closed || at_.before.contacts[i].friction != Friction::slide) continue;
+    if (contains(changes.stopped, i) || system_.slip(i).norm() > scene_.scale.of(i).rest_speed()) continue;
     changes.stopped.push_back(i);
     more = true;
   }
@@ -216,15 +207,15 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
                                                       const std::vector<Participant>& nearby) {
   bearings_undecided_ = false;
   rounds_of_bounds_ = 0;
-  largest_.assign(modes_.contacts.size(), 0);  // values of an earlier event would be unknown to a resumed run
+  at_.largest.assign(at_.modes.contacts.size(), 0);  // values of an earlier event would be unknown to a resumed run
   do {
     gather(state, changes, jumped);
-    open_all(modes_);
+    open_all(at_.modes);
     if (problem_.who.empty()) return {LcpOutcome::solved, 0};
     problem_.prepare(system_);
   } while (stop_with_others(changes) || end_drift(state, changes, jumped));
   for (std::vector<Participant> begin = nearby;;) {
-    system_.set_modes(modes_);
+    system_.set_modes(at_.modes);
     system_.move_to(state.t, state.q, state.v);
     accelerate_participants();
     if (has_bearings()) return decide_with_bearings(state);
@@ -232,7 +223,7 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
     if (solution.outcome != LcpOutcome::solved) return solution;
     if (share_within_bounds(state)) return solution;
     if (rounds_of_bounds_ > 0) begin = problem_.who;
-    open_all(modes_);
+    open_all(at_.modes);
   }
 }
 
@@ -252,14 +243,14 @@ std::vector<bool> ContactModes::in_doubt(const std::vector<int>& released) const
   if (problem_.who.empty()) return {};
   const auto loses_a_force = [&](int contact) {
     return std::any_of(released.begin(), released.end(),
-                       [&](int other) { return scale_.island(other) == scale_.island(contact); });
+                       [&](int other) { return scene_.scale.island(other) == scene_.scale.island(contact); });
   };
   const std::vector<double> largest = problem_.largest_in_island();
   const std::vector<std::size_t> island = problem_.islands();
   std::vector<bool> open(problem_.who.size(), false), all;  // by island
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     const Participant& p = problem_.who[i];
-    const bool opens = before_.contacts[p.contact].closed && !modes_.contacts[p.contact].closed;
+    const bool opens = at_.before.contacts[p.contact].closed && !at_.modes.contacts[p.contact].closed;
     const double error = loses_a_force(p.contact) ? std::max(p.violation, error_of_release) : p.violation;
     const bool just_presses = p.N > 0 && (p.N <= undecided * error * largest[i] || would_hardly_close(i));
     if (p.unilateral && (just_presses || (opens && p.a_n <= least_acceleration(p)))) open[island[i]] = true;
@@ -275,9 +266,9 @@ double ContactModes::time_of_change(const std::vector<bool>& asked) {
   const auto is_asked = [&](const Participant& p) { return asked[std::size_t(p.contact)]; };
   for (const Participant& p : problem_.who) {
     if (!is_asked(p)) continue;
-    const Scale scale = scale_.of(p.contact);
+    const Scale scale = scene_.scale.of(p.contact);
     length = std::max(length, scale.length()), speed = std::max(speed, scale.speed);
-    largest = std::max(largest, largest_[std::size_t(p.contact)]);
+    largest = std::max(largest, at_.largest[std::size_t(p.contact)]);
   }
   speed = std::max(speed, std::sqrt(largest * length));
   double least = speed > 0 ? length / speed : 0;
@@ -286,7 +277,7 @@ double ContactModes::time_of_change(const std::vector<bool>& asked) {
     const Tangential slip = system_.slip(p.contact), change = system_.slip_acceleration(p.contact, a_);
     if (!(slip.dot(change) < 0)) continue;  // it does not slow down
     const double slips = slip.norm();
-    if (slips > scale_.of(p.contact).rest_speed() && slips < least * change.norm()) least = slips / change.norm();
+    if (slips > scene_.scale.of(p.contact).rest_speed() && slips < least * change.norm()) least = slips / change.norm();
   }
   return least;
 }
@@ -341,9 +332,9 @@ std::vector<bool> ContactModes::with_their_islands(std::vector<bool> asked) cons
 complementarity::ContactSolution ContactModes::decide_by_what_follows(const State& state, ContactChanges changes,
                                                                       bool jumped, const std::vector<bool>& asked,
                                                                       complementarity::ContactSolution so_far) {
-  const model::Modes decided = modes_;
+  const model::Modes decided = at_.modes;
   const std::vector<Participant> now = so_far.outcome == LcpOutcome::solved ? problem_.who : std::vector<Participant>();
-  system_.set_modes(so_far.outcome == LcpOutcome::solved ? modes_ : before_);
+  system_.set_modes(so_far.outcome == LcpOutcome::solved ? at_.modes : at_.before);
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
   const double time = time_of_change(asked);
@@ -359,10 +350,10 @@ complementarity::ContactSolution ContactModes::decide_by_what_follows(const Stat
     find_candidates(changes);
     const complementarity::ContactSolution solution = decide(later, changes, jumped, now);
     system_.move_to(state.t, state.q, state.v);
-    if (solution.outcome == LcpOutcome::solved) keep_others(decided, with_their_islands(asked), modes_);
+    if (solution.outcome == LcpOutcome::solved) keep_others(decided, with_their_islands(asked), at_.modes);
     if (solution.outcome != LcpOutcome::gave_up) return solution;
   }
-  modes_ = decided;
+  at_.modes = decided;
   return so_far;
 }
 
@@ -374,16 +365,16 @@ void ContactModes::accelerate_participants() {
   for (std::size_t i = 0; i < island.size(); ++i) {
     Participant& p = problem_.who[i];
     if (!p.unilateral) p.given = system_.normal_force(p.contact, lambda_);
-    p.least_slip = scale_.of(p.contact).no_acceleration();
+    p.least_slip = scene_.scale.of(p.contact).no_acceleration();
     p.a_n = system_.acceleration({p.contact, 0}, a_);
     if (p.tangent != Tangent::none) p.a_t = system_.slip_acceleration(p.contact, a_);
     largest[island[i]] = std::max({largest[island[i]], std::abs(p.a_n), p.a_t.norm()});
     least[island[i]] = std::max(least[island[i]], p.least_slip);
   }
-  largest_.assign(modes_.contacts.size(), 0);
+  at_.largest.assign(at_.modes.contacts.size(), 0);
   for (std::size_t i = 0; i < island.size(); ++i) {
     Participant& p = problem_.who[i];
-    largest_[std::size_t(p.contact)] = largest[island[i]];
+    at_.largest[std::size_t(p.contact)] = largest[island[i]];
     p.nothing = std::max(least[island[i]], error_of_accelerations * largest[island[i]]);
   }
 }
@@ -405,7 +396,7 @@ void ContactModes::take_verdicts_found() {
 // be needed although it drives its own gap apart, by friction. `largest`: the largest force in its island.
 bool ContactModes::merely_touches(std::size_t participant, double largest) const {
   const Participant& p = problem_.who[participant];
-  return p.unilateral && !before_.contacts[p.contact].closed && p.N <= most_error_of_forces * largest &&
+  return p.unilateral && !at_.before.contacts[p.contact].closed && p.N <= most_error_of_forces * largest &&
          would_hardly_close(participant);
 }
 
@@ -416,13 +407,13 @@ bool ContactModes::would_hardly_close(std::size_t participant) const {
 }
 
 void ContactModes::take_verdict(const Participant& p, bool closed) {
-  model::ContactMode& mode = modes_.contacts[p.contact];
+  model::ContactMode& mode = at_.modes.contacts[p.contact];
   mode.closed = closed;
   mode.friction = Friction::none;
   if (!mode.closed || p.tangent == Tangent::none || !system_.model().contacts[p.contact].coulomb) return;
   mode.friction = Friction::slide;
   mode.direction = p.direction;
-  mode.least_slip = least_slip(p.contact);
+  mode.least_slip = scene_.least_slip(p.contact);
   if (p.tangent == Tangent::sliding) return;
   if (p.a_t.norm() > p.no_slip) {
     mode.direction = direction_of(p.a_t);
@@ -430,7 +421,7 @@ void ContactModes::take_verdict(const Participant& p, bool closed) {
     mode.direction = -direction_of(p.T);
   } else {
     mode.friction = Friction::stick;
-    if (before_.contacts[p.contact].friction != Friction::stick) system_.anchor(p.contact, mode);
+    if (at_.before.contacts[p.contact].friction != Friction::stick) system_.anchor(p.contact, mode);
   }
 }
 

@@ -17,12 +17,12 @@ void ContactModes::fail_without_balance(double t, const complementarity::Contact
 
 void ContactModes::fail_without_impact(double t, const complementarity::ContactSolution& solution) const {
   std::vector<Participant> who;
-  for (const TouchingContact& c : touching_) {
+  for (const TouchingContact& c : at_.touching) {
     Participant& p = who.emplace_back();
     p.contact = c.contact;
     p.a_n = c.was_closed ? 0 : c.before;
   }
-  for (const TouchingContact& c : bearings_) {
+  for (const TouchingContact& c : at_.bearings) {
     Participant& p = who.emplace_back();
     p.contact = c.contact, p.unilateral = false;
   }

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <map>
 
-#include "simulate/contact/law_speeds.hpp"
 #include "simulate/settling/contact_mode.hpp"
 
 namespace trammel::simulate {
@@ -10,26 +9,26 @@ namespace trammel::simulate {
 using complementarity::LcpOutcome;
 
 void ContactModes::find_touching(const ContactChanges& changes) {
-  touching_.clear();
+  at_.touching.clear();
   for (int i = 0; i < int(system_.model().contacts.size()); ++i) {
     const Restitution* law = system_.model().contacts[i].restitution;
     if (!law) continue;
-    const bool closed = before_.contacts[i].closed, struck = contains(changes.struck, i);
-    if (closed && locks(i)) continue;
-    if (!closed && !struck && system_.gap(i) > scale_.of(i).touching()) continue;
+    const bool closed = at_.before.contacts[i].closed, struck = contains(changes.struck, i);
+    if (closed && scene_.locks(i)) continue;
+    if (!closed && !struck && system_.gap(i) > scene_.scale.of(i).touching()) continue;
     TouchingContact c;
     c.contact = i;
     c.was_closed = closed;
     c.before = c.after = system_.gap_rate(i);
-    if (struck && -c.before > capture_speed(i)) c.restitution = law->coefficient(-c.before);
-    touching_.push_back(c);
+    if (struck && -c.before > scene_.capture_speed(i)) c.restitution = law->coefficient(-c.before);
+    at_.touching.push_back(c);
   }
 }
 
 void ContactModes::find_bearings() {
-  bearings_.clear();
+  at_.bearings.clear();
   for (int i = 0; i < int(system_.model().contacts.size()); ++i)
-    if (rubs_in_impacts(system_.model().contacts[i])) bearings_.push_back({.contact = i, .was_closed = true});
+    if (rubs_in_impacts(system_.model().contacts[i])) at_.bearings.push_back({.contact = i, .was_closed = true});
 }
 
 // Rules 1 and 2.
@@ -43,10 +42,10 @@ complementarity::ContactSolution ContactModes::strike(State& state, const Contac
     return solution;
   }
   const std::vector<TouchingContact> all = touching_and_bearings();  // with the rates that the impact left
-  if (const std::size_t first = brief.first(); first < touching_.size()) {
+  if (const std::size_t first = brief.first(); first < at_.touching.size()) {
     system_.move_to(state.t, state.q, state.v);
     const double taken = end_rocking(state, brief);  // the loss of all of them, reported for the first
-    losses_.push_back({touching_[first].contact, taken});
+    losses_.push_back({at_.touching[first].contact, taken});
     lost_elsewhere_ -= taken;
   }
   system_.move_to(state.t, state.q, state.v);
@@ -67,8 +66,8 @@ complementarity::ContactSolution ContactModes::strike_with_captures(State& state
     std::vector<TouchingContact> all = touching_and_bearings();
     const auto solution = solve_impacts(state, all);
     if (solution.outcome != LcpOutcome::solved) return solution;
-    std::copy_n(all.begin(), touching_.size(), touching_.begin());
-    std::copy_n(all.begin() + std::ptrdiff_t(touching_.size()), bearings_.size(), bearings_.begin());
+    std::copy_n(all.begin(), at_.touching.size(), at_.touching.begin());
+    std::copy_n(all.begin() + std::ptrdiff_t(at_.touching.size()), at_.bearings.size(), at_.bearings.begin());
     state.v = v_before_ + dv_;
     brief = too_brief(state, changes);
     if (!capture_chatter(brief.falls)) return solution;
@@ -77,8 +76,8 @@ complementarity::ContactSolution ContactModes::strike_with_captures(State& state
 }
 
 std::vector<TouchingContact> ContactModes::touching_and_bearings() const {
-  std::vector<TouchingContact> all = touching_;
-  all.insert(all.end(), bearings_.begin(), bearings_.end());
+  std::vector<TouchingContact> all = at_.touching;
+  all.insert(all.end(), at_.bearings.begin(), at_.bearings.end());
   return all;
 }
 
@@ -88,7 +87,7 @@ complementarity::ContactSolution ContactModes::solve_impacts(const State& state,
   const bool together =
       std::any_of(all.begin(), all.end(), [](const TouchingContact& c) { return c.without_collision; });
   std::map<std::size_t, std::vector<std::size_t>> islands;
-  for (std::size_t i = 0; i < all.size(); ++i) islands[together ? 0 : scale_.island(all[i].contact)].push_back(i);
+  for (std::size_t i = 0; i < all.size(); ++i) islands[together ? 0 : scene_.scale.island(all[i].contact)].push_back(i);
   dv_.setZero(system_.sizes().nv);
   cut_short_ = false;
   std::size_t first = 0;  // index of the first island of this group
@@ -111,13 +110,13 @@ complementarity::ContactSolution ContactModes::solve_impacts(const State& state,
 
 // Rule 9: latches that touch without a rate lock.
 void ContactModes::lock(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events) {
-  model::Modes held = before_;
+  model::Modes held = at_.before;
   const auto locked = [&](const TouchingContact& c) {
-    if (!locks(c.contact) || !(contains(changes.struck, c.contact) || c.impulse > 0) ||
-        c.after > scale_.of(c.contact).rest_speed())
+    if (!scene_.locks(c.contact) || !(contains(changes.struck, c.contact) || c.impulse > 0) ||
+        c.after > scene_.scale.of(c.contact).rest_speed())
       return false;
-    held.contacts[c.contact].closed = modes_.contacts[c.contact].closed = true;
-    modes_.contacts[c.contact].approach_speed = -c.before;
+    held.contacts[c.contact].closed = at_.modes.contacts[c.contact].closed = true;
+    at_.modes.contacts[c.contact].approach_speed = -c.before;
     events.push_back({.t = state.t,
                       .kind = ContactEvent::Kind::latch,
                       .contact = c.contact,
@@ -127,19 +126,15 @@ void ContactModes::lock(State& state, const ContactChanges& changes, std::vector
                       .energy_lost = c.energy_lost()});
     return true;
   };
-  if (std::erase_if(touching_, locked) == 0) return;
-  before_ = held;
+  if (std::erase_if(at_.touching, locked) == 0) return;
+  at_.before = held;
   system_.set_modes(held);
   system_.move_to(state.t, state.q, state.v);
 }
 
-double ContactModes::capture_speed(int contact) const {
-  return simulate::capture_speed(system_.model().contacts[contact], scale_.of(contact));
-}
-
 double ContactModes::rest_speed(const std::vector<TouchingContact>& contacts) const {
   double largest = 0;
-  for (const TouchingContact& c : contacts) largest = std::max(largest, scale_.of(c.contact).rest_speed());
+  for (const TouchingContact& c : contacts) largest = std::max(largest, scene_.scale.of(c.contact).rest_speed());
   return largest;
 }
 

@@ -68,23 +68,23 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
   take_approach_speeds(changes);
   append_impacts(state.t, without_collision, events);
   finish(state, carries_forces(changes) && state.a.size() == system_.sizes().nv);  // the start has no a yet
-  for (const TouchingContact& c : touching_) append_normal_event(state, c, events);
+  for (const TouchingContact& c : at_.touching) append_normal_event(state, c, events);
   append_friction_events(state, events);
 }
 
 void ContactModes::begin(const State& state) {
   system_.move_to(state.t, state.q, state.v);
-  before_ = modes_ = system_.modes();
-  shared_before_.resize(system_.model().contacts.size());
-  for (std::size_t i = 0; i < shared_before_.size(); ++i) shared_before_[i] = system_.sharing(int(i)).shared;
+  at_.before = at_.modes = system_.modes();
+  at_.shared_before.resize(system_.model().contacts.size());
+  for (std::size_t i = 0; i < at_.shared_before.size(); ++i) at_.shared_before[i] = system_.sharing(int(i)).shared;
   keep_forces(state);
   losses_.clear();
   lost_elsewhere_ = 0;
 }
 
 bool ContactModes::any_approaches() const {
-  return std::any_of(touching_.begin(), touching_.end(),
-                     [this](const TouchingContact& c) { return c.before < -scale_.of(c.contact).rest_speed(); });
+  return std::any_of(at_.touching.begin(), at_.touching.end(),
+                     [this](const TouchingContact& c) { return c.before < -scene_.scale.of(c.contact).rest_speed(); });
 }
 
 // Rules 3 to 7; rule 11 where the problem at this instant leaves modes in doubt. If there is no solution, an impact
@@ -102,7 +102,7 @@ complementarity::ContactSolution ContactModes::decide_with_doubts(State& state, 
     solution = decide(state, others, jumped);
   }
   if (solution.outcome == LcpOutcome::no_solution) return solution;
-  std::vector<bool> asked(modes_.contacts.size(), solution.outcome == LcpOutcome::gave_up);
+  std::vector<bool> asked(at_.modes.contacts.size(), solution.outcome == LcpOutcome::gave_up);
   if (solution.outcome == LcpOutcome::solved) {
     const std::vector<bool> open = in_doubt(changes.released);
     if (std::find(open.begin(), open.end(), true) == open.end()) return solution;
@@ -115,9 +115,9 @@ complementarity::ContactSolution ContactModes::decide_with_doubts(State& state, 
 // and parts with the largest acceleration.
 complementarity::ContactSolution ContactModes::open_freed(State& state, const ContactChanges& changes, bool jumped,
                                                           const complementarity::ContactSolution& so_far) {
-  if (!changes.leaning || implied_rows(modes_) >= implied_rows(before_)) return so_far;
+  if (!changes.leaning || implied_rows(at_.modes) >= implied_rows(at_.before)) return so_far;
   const std::vector<int> all = candidates_;
-  const model::Modes found = modes_;
+  const model::Modes found = at_.modes;
   const auto decide_without = [&](int contact) {
     candidates_ = all;
     std::erase(candidates_, contact);
@@ -126,8 +126,8 @@ complementarity::ContactSolution ContactModes::open_freed(State& state, const Co
   int freed = -1;
   double fastest = 0;
   for (const int contact : all) {
-    if (!shared_before_[std::size_t(contact)] || !found.contacts[contact].closed || locks(contact)) continue;
-    if (decide_without(contact).outcome != LcpOutcome::solved || !has_forces_in(modes_, state)) continue;
+    if (!at_.shared_before[std::size_t(contact)] || !found.contacts[contact].closed || scene_.locks(contact)) continue;
+    if (decide_without(contact).outcome != LcpOutcome::solved || !has_forces_in(at_.modes, state)) continue;
     const double apart = system_.acceleration({contact, 0}, a_);
     if (apart > std::max(fastest, least_acceleration(contact))) fastest = apart, freed = contact;
   }
@@ -135,15 +135,15 @@ complementarity::ContactSolution ContactModes::open_freed(State& state, const Co
 }
 
 void ContactModes::take_approach_speeds(const ContactChanges& changes) {
-  for (const TouchingContact& c : touching_)
+  for (const TouchingContact& c : at_.touching)
     if (contains(changes.struck, c.contact) || (!c.was_closed && c.impulse > 0))
-      modes_.contacts[c.contact].approach_speed = -c.before;
+      at_.modes.contacts[c.contact].approach_speed = -c.before;
 }
 
 bool ContactModes::carries_forces(const ContactChanges& changes) const {
-  return std::any_of(touching_.begin(), touching_.end(), [&](const TouchingContact& c) {
+  return std::any_of(at_.touching.begin(), at_.touching.end(), [&](const TouchingContact& c) {
     return (contains(changes.struck, c.contact) || contains(changes.released, c.contact)) &&
-           treatment(c.contact).restart == Restitution::Restart::carry;
+           scene_.treatment(c.contact).restart == Restitution::Restart::carry;
   });
 }
 
@@ -155,22 +155,22 @@ bool ContactModes::changes_sign_by_infinity(const State& state, const ContactCha
   const bool slides = std::any_of(problem_.who.begin(), problem_.who.end(),
                                   [](const Participant& p) { return p.tangent == Participant::Tangent::sliding; }) ||
                       std::any_of(released.begin(), released.end(), [this](int contact) {
-                        return before_.contacts[contact].friction == Friction::slide;
+                        return at_.before.contacts[contact].friction == Friction::slide;
                       });
   if (released.empty() || !slides) return false;
-  system_.set_modes(modes_);
+  system_.set_modes(at_.modes);
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
   return std::any_of(released.begin(), released.end(), [&](int contact) {
-    const double of_scene = over_round_off * scale_.of(contact).no_acceleration();
-    return !modes_.contacts[contact].closed &&
+    const double of_scene = over_round_off * scene_.scale.of(contact).no_acceleration();
+    return !at_.modes.contacts[contact].closed &&
            system_.acceleration({contact, 0}, a_) <
-               -opened_by_error * std::max(largest_[std::size_t(contact)], of_scene);
+               -opened_by_error * std::max(at_.largest[std::size_t(contact)], of_scene);
   });
 }
 
 void ContactModes::append_impacts(double t, bool without_collision, std::vector<ContactEvent>& events) const {
-  for (const TouchingContact& c : touching_)
+  for (const TouchingContact& c : at_.touching)
     if (c.impulse > 0 && (!c.was_closed || without_collision))
       events.push_back({.t = t,
                         .contact = c.contact,
@@ -179,7 +179,7 @@ void ContactModes::append_impacts(double t, bool without_collision, std::vector<
                         .separation = c.after,
                         .energy_lost = c.energy_lost(),
                         .friction = system_.along_tangents(c.contact, c.friction)});
-  for (const TouchingContact& c : bearings_)
+  for (const TouchingContact& c : at_.bearings)
     if (!c.friction.isZero(0))
       events.push_back({.t = t,
                         .contact = c.contact,
@@ -190,11 +190,11 @@ void ContactModes::append_impacts(double t, bool without_collision, std::vector<
 
 void ContactModes::toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events) {
   for (const int i : contacts) {
-    model::ContactMode& mode = modes_.contacts[i];
+    model::ContactMode& mode = at_.modes.contacts[i];
     const double rate = system_.gap_rate(i);
     mode.closed = !mode.closed;
     mode.friction = Friction::none;
-    if (mode.closed) mode.approach_speed = -rate > least_approach * scale_.of(i).speed ? -rate : 0;
+    if (mode.closed) mode.approach_speed = -rate > least_approach * scene_.scale.of(i).speed ? -rate : 0;
     events.push_back({.t = state.t,
                       .kind = mode.closed ? Kind::close : Kind::open,
                       .contact = i,
@@ -206,29 +206,30 @@ void ContactModes::toggle(const State& state, const std::vector<int>& contacts, 
 // Sets up problem_ with the closed contacts in their present modes.
 void ContactModes::prepare_present(const State& state) {
   system_.move_to(state.t, state.q, state.v);
-  before_ = modes_ = system_.modes();
-  shared_before_.assign(modes_.contacts.size(), false);
+  at_.before = at_.modes = system_.modes();
+  at_.shared_before.assign(at_.modes.contacts.size(), false);
   candidates_.clear();
-  for (int i = 0; i < int(modes_.contacts.size()); ++i)
-    if (modes_.contacts[i].closed && system_.model().contacts[i].restitution && !locks(i)) candidates_.push_back(i);
+  for (int i = 0; i < int(at_.modes.contacts.size()); ++i)
+    if (at_.modes.contacts[i].closed && system_.model().contacts[i].restitution && !scene_.locks(i))
+      candidates_.push_back(i);
   gather(state, {}, false);
-  modes_ = before_;
+  at_.modes = at_.before;
   for (Participant& p : problem_.who) p.idle = system_.sharing(p.contact).idle;
   problem_.prepare(system_);
 }
 
 double ContactModes::distance_from_critical(const State& state) {
   prepare_present(state);
-  return problem_.distance_from_critical(before_);
+  return problem_.distance_from_critical(at_.before);
 }
 
 bool ContactModes::renew_bases(State& state) {
   prepare_present(state);
-  const std::vector<bool> held = problem_.held_by_others(modes_);
+  const std::vector<bool> held = problem_.held_by_others(at_.modes);
   for (std::size_t i = 0; i < held.size(); ++i)
     if (problem_.who[i].idle && !held[i]) return false;
-  modes_.shared = problem_.shared_rows(modes_);
-  if (implied_rows(modes_) < implied_rows(before_)) return false;
+  at_.modes.shared = problem_.shared_rows(at_.modes);
+  if (implied_rows(at_.modes) < implied_rows(at_.before)) return false;
   finish(state, false);
   return true;
 }
@@ -250,7 +251,7 @@ double ContactModes::friction_noise(int contact) {
   Mat jump, delassus;
   system_.impulse_response(along, jump, delassus);
   const double least = delassus.diagonal().minCoeff();
-  return least > 0 ? scale_.of(contact).no_acceleration() / least : 0;
+  return least > 0 ? scene_.scale.of(contact).no_acceleration() / least : 0;
 }
 
 double ContactModes::force_noise(const std::vector<model::ContactDirection>& directions) {
@@ -259,7 +260,7 @@ double ContactModes::force_noise(const std::vector<model::ContactDirection>& dir
   const double most = delassus.cwiseAbs().rowwise().sum().maxCoeff();
   double nothing = 0;
   for (const model::ContactDirection& d : directions)
-    nothing = std::max(nothing, scale_.of(d.contact).no_acceleration());
+    nothing = std::max(nothing, scene_.scale.of(d.contact).no_acceleration());
   return most > 0 ? nothing / most : 0;
 }
 
@@ -275,7 +276,7 @@ void ContactModes::keep_forces(const State& state) {
   forces_before_.assign(contacts.size(), Eigen::Vector3d::Zero());
   if (state.lambda.size() != system_.sizes().nc) return;  // the start has no lambda yet
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const model::ContactMode& mode = before_.contacts[i];
+    const model::ContactMode& mode = at_.before.contacts[i];
     if (!mode.closed) continue;
     if (contacts[i].restitution) forces_before_[i][0] = system_.normal_force(int(i), state.lambda);
     if (mode.friction == Friction::stick) forces_before_[i].tail<2>() = system_.friction_force(int(i), state.lambda);
@@ -298,7 +299,7 @@ void ContactModes::carry_forces(Vec& lambda) const {
 }
 
 void ContactModes::finish(State& state, bool carry) {
-  system_.set_modes(modes_);
+  system_.set_modes(at_.modes);
   system_.move_to(state.t, state.q, state.v);
   if (carry)
     carry_forces(state.lambda);
@@ -308,7 +309,7 @@ void ContactModes::finish(State& state, bool carry) {
 
 void ContactModes::append_normal_event(const State& state, const TouchingContact& c,
                                        std::vector<ContactEvent>& events) {
-  const bool closed = modes_.contacts[c.contact].closed;
+  const bool closed = at_.modes.contacts[c.contact].closed;
   ContactEvent event{.t = state.t, .contact = c.contact, .approach = -c.before, .separation = c.after};
   if (closed != c.was_closed) {
     event.kind = closed ? Kind::close : Kind::open;
@@ -321,8 +322,8 @@ void ContactModes::append_normal_event(const State& state, const TouchingContact
 }
 
 void ContactModes::append_friction_events(const State& state, std::vector<ContactEvent>& events) {
-  for (int i = 0; i < int(modes_.contacts.size()); ++i) {
-    const model::ContactMode &now = modes_.contacts[i], &before = before_.contacts[i];
+  for (int i = 0; i < int(at_.modes.contacts.size()); ++i) {
+    const model::ContactMode &now = at_.modes.contacts[i], &before = at_.before.contacts[i];
     if (!now.closed || now.friction == Friction::none) continue;
     const bool sticks = now.friction == Friction::stick;
     const bool same =

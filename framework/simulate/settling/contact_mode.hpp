@@ -121,53 +121,23 @@
 // force acts.
 #pragma once
 
-#include <algorithm>
 #include <map>
 #include <vector>
 
 #include <trammel/integrator.hpp>
 
-#include "run/contact_scale.hpp"
-#include "run/settings.hpp"
+#include "simulate/contact/contact_changes.hpp"
 #include "simulate/contact/contact_problem.hpp"
+#include "simulate/contact/contact_scene.hpp"
 #include "simulate/impact/impact_laws.hpp"
 #include "simulate/impact/impact_warnings.hpp"
 #include "simulate/results/contact_event.hpp"
+#include "simulate/settling/contacts_at_event.hpp"
 
 namespace trammel::simulate {
 
-// Changes seen at one instant, by contact.
-struct ContactChanges {
-  std::vector<int> struck;    // open Restitution contacts whose gap fell through 0
-  std::vector<int> released;  // closed Restitution contacts whose force fell through 0
-  std::vector<int> toggled;   // ContactForce: force on or off
-  std::vector<int> yielded;   // sticking contacts whose friction reached its bound
-  std::vector<int> stopped;   // sliding contacts whose slip reached 0
-  bool leaning = false;       // other rows in g are to hold the same contacts: these have become nearly dependent, or
-                              // contacts share with more others than before (they touched at one point)
-  bool locked = false;        // sliding contacts have no finite forces from here on (rule 8)
-  double raised = 0;          // friction then counts as larger by this part: the distance of the state from that point
-  bool only_leaning() const {
-    ContactChanges others = *this;
-    others.leaning = false;
-    return leaning && others.empty();
-  }
-  bool empty() const {
-    return struck.empty() && released.empty() && toggled.empty() && yielded.empty() && stopped.empty() && !leaning &&
-           !locked;
-  }
-  void clear() {
-    struck.clear(), released.clear(), toggled.clear(), yielded.clear(), stopped.clear();
-    leaning = locked = false, raised = 0;
-  }
-};
-
 // Rules 3 and 13. Of the largest force in the island: a smaller force may be an error of the solution.
 inline constexpr double most_error_of_forces = 1e-6;
-
-inline bool contains(const std::vector<int>& contacts, int i) {
-  return std::find(contacts.begin(), contacts.end(), i) != contacts.end();
-}
 
 // Contacts that are not `asked`, and the groups in which they share, get the modes that were decided before. A group of
 // either modes is asked as a whole, so that none names rows that its contacts do not have.
@@ -176,7 +146,7 @@ void keep_others(const model::Modes& decided, std::vector<bool> asked, model::Mo
 class ContactModes {
  public:
   ContactModes(model::AssembledSystem& system, const ContactScale& scale, const Settings& settings)
-      : system_(system), scale_(scale), steps_(settings.contact_step), chatter_steps_(settings.chatter_steps) {}
+      : scene_{system, scale, settings.contact_step, settings.chatter_steps}, system_(system) {}
 
   // Applies the changes at `state`: v jumps, modes and sizes change, a and lambda are solved anew. Appends the events.
   void settle(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
@@ -342,8 +312,6 @@ class ContactModes {
   void finish(State& state, bool carry);
   void append_normal_event(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
   void append_friction_events(const State& state, std::vector<ContactEvent>& events);
-  double stick_speed(int contact) const;
-  double least_slip(int contact) const;
   double rest_speed(const std::vector<TouchingContact>& contacts) const;  // [m/s] the largest of their thresholds
   double unresolved(int contact, const State& state);
   void keep_forces(const State& state);
@@ -354,23 +322,14 @@ class ContactModes {
   [[noreturn]] void fail_without_solution(const char* what, double t, const complementarity::ContactSolution& solution,
                                           const std::vector<Participant>& who) const;
   bool blocked(const std::vector<Participant>& who) const;
-  Restitution::Treatment treatment(int contact) const {
-    return system_.model().contacts[contact].restitution->treatment();
-  }
-  double capture_speed(int contact) const;
-  bool locks(int contact) const { return treatment(contact).release == Restitution::Release::never; }
 
+  ContactScene scene_;
   model::AssembledSystem& system_;
-  const ContactScale& scale_;
-  const StepChoice& steps_;
-  double chatter_steps_;
+  ContactsAtEvent at_;
   ImpactLaws impact_;
   ImpactWarnings impact_warnings_;
   ContactProblem problem_;
-  model::Modes before_, modes_;
-  std::vector<TouchingContact> touching_, bearings_;  // contacts; joints that rub
   std::vector<int> candidates_;
-  std::vector<bool> shared_before_;             // by contact: it depended on rows of others
   std::vector<Eigen::Vector3d> forces_before_;  // by contact and direction [N], where some are carried over
   std::vector<Loss> losses_;
   double lost_elsewhere_ = 0;
@@ -379,7 +338,6 @@ class ContactModes {
   std::vector<Participant> without_bounds_;  // before the first of these rounds
   model::Modes modes_so_bounded_;            // decided in the round before
   bool bearings_undecided_ = false;          // in the last decision no modes agreed with the loads of the bearings
-  std::vector<double> largest_;  // [m/s^2] by contact: of the accelerations without the forces sought in its island
   Vec dv_, v_before_, a_, lambda_, lambda_before_;
 };
 

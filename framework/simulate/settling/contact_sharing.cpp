@@ -55,7 +55,8 @@ bool has_any(const std::vector<bool>& all) {
 // force are idle too, or none is, if the forces in these modes could not be exerted otherwise. Each island is decided
 // for itself: a force that is an error in one is large in another.
 void ContactModes::find_shares(const State& state) {
-  Idle idle{.decided = modes_, .up_to = std::vector<double>(problem_.who.size(), complementarity::largest_violation)};
+  Idle idle{.decided = at_.modes,
+            .up_to = std::vector<double>(problem_.who.size(), complementarity::largest_violation)};
   share(idle);
   doubt(idle);
   fewer_idle(state, idle);
@@ -68,7 +69,7 @@ void ContactModes::find_shares(const State& state) {
 
 // Islands that move otherwise than found: only contacts without any force are idle.
 void ContactModes::fewer_idle(const State& state, Idle& idle) {
-  if (!has_any(idle.doubtful) || !has_forces_in(modes_, state)) return;
+  if (!has_any(idle.doubtful) || !has_forces_in(at_.modes, state)) return;
   const std::vector<bool> as_found = moves_as_found();
   bool more = false;
   for (std::size_t k = 0; k < as_found.size(); ++k)
@@ -104,7 +105,7 @@ void ContactModes::share_doubtful(double up_to, Idle& idle) {
 }
 
 void ContactModes::share(Idle& idle) {
-  modes_ = idle.decided;
+  at_.modes = idle.decided;
   idle.least = share(idle.up_to);
 }
 
@@ -118,23 +119,23 @@ void ContactModes::doubt(Idle& idle) const {
 }
 
 std::vector<double> ContactModes::share(const std::vector<double>& none) {
-  const std::vector<double> least = problem_.find_idle(modes_, none);
+  const std::vector<double> least = problem_.find_idle(at_.modes, none);
   for (const Participant& p : problem_.who)  // without a force there is no friction
-    if (model::ContactMode& mode = modes_.contacts[p.contact]; p.idle && mode.friction == Friction::stick)
+    if (model::ContactMode& mode = at_.modes.contacts[p.contact]; p.idle && mode.friction == Friction::stick)
       mode.friction = Friction::none;
-  modes_.shared = problem_.shared_rows(modes_);
-  while (open_loose_ones()) modes_.shared = problem_.shared_rows(modes_);
+  at_.modes.shared = problem_.shared_rows(at_.modes);
+  while (open_loose_ones()) at_.modes.shared = problem_.shared_rows(at_.modes);
   return least;
 }
 
 // Rule 13. A contact without a force stays closed only as long as the others hold it.
 bool ContactModes::open_loose_ones() {
-  const std::vector<bool> held = problem_.held_by_others(modes_);
+  const std::vector<bool> held = problem_.held_by_others(at_.modes);
   bool any = false;
   for (std::size_t i = 0; i < held.size(); ++i) {
     Participant& p = problem_.who[i];
     if (!p.idle || held[i]) continue;
-    model::ContactMode& mode = modes_.contacts[p.contact];
+    model::ContactMode& mode = at_.modes.contacts[p.contact];
     p.idle = mode.closed = false;
     mode.friction = Friction::none;
     any = true;
@@ -151,23 +152,24 @@ void ContactModes::open_pulling_ones(const State& state) {
     if (const Participant& p = problem_.who[i];
         p.unilateral && !p.idle && p.N > 0 && p.N <= most_error_of_forces * largest[i])
       faint.push_back(i);
-  if (faint.empty() || !has_forces_in(modes_, state)) return;
-  const model::Modes decided = modes_;
+  if (faint.empty() || !has_forces_in(at_.modes, state)) return;
+  const model::Modes decided = at_.modes;
   const auto contact = [this](std::size_t i) { return problem_.who[i].contact; };
-  std::erase_if(faint,
-                [&](std::size_t i) { return locks(contact(i)) || !(system_.normal_force(contact(i), lambda_) < 0); });
+  std::erase_if(faint, [&](std::size_t i) {
+    return scene_.locks(contact(i)) || !(system_.normal_force(contact(i), lambda_) < 0);
+  });
   const std::vector<std::size_t> island = problem_.islands();
   for (std::vector<std::size_t>& opened = faint; !opened.empty();) {
     for (const std::size_t i : opened) {
-      modes_.contacts[contact(i)].closed = false;
-      modes_.contacts[contact(i)].friction = Friction::none;
+      at_.modes.contacts[contact(i)].closed = false;
+      at_.modes.contacts[contact(i)].friction = Friction::none;
     }
     find_shares(state);
-    std::vector<bool> closes(problem_.who.size(), !has_forces_in(modes_, state));  // by island
+    std::vector<bool> closes(problem_.who.size(), !has_forces_in(at_.modes, state));  // by island
     for (const std::size_t i : opened)
       if (!closes[island[i]] && !(system_.acceleration({contact(i), 0}, a_) >= 0)) closes[island[i]] = true;
     if (std::erase_if(opened, [&](std::size_t i) { return closes[island[i]]; }) == 0) return;
-    modes_ = decided;
+    at_.modes = decided;
     if (opened.empty()) find_shares(state);
   }
 }
@@ -185,11 +187,11 @@ bool ContactModes::has_forces_in(const model::Modes& modes, const State& state) 
 // By island: whether the forces in these modes push and stay in their cones.
 std::vector<bool> ContactModes::can_be_exerted(const State& state) {
   const std::vector<std::size_t> island = problem_.islands();
-  if (!has_forces_in(modes_, state)) return std::vector<bool>(island.size(), false);
+  if (!has_forces_in(at_.modes, state)) return std::vector<bool>(island.size(), false);
   std::vector<double> largest(island.size(), 0), worst(island.size(), 0);
   for (std::size_t i = 0; i < island.size(); ++i) {
     const Participant& p = problem_.who[i];
-    const model::ContactMode& mode = modes_.contacts[p.contact];
+    const model::ContactMode& mode = at_.modes.contacts[p.contact];
     if (!mode.closed || !p.unilateral) continue;
     const double N = system_.normal_force(p.contact, lambda_);
     double& most = worst[island[i]];
@@ -213,7 +215,8 @@ std::vector<bool> ContactModes::moves_as_found() const {
     double off = p.unilateral ? std::abs(system_.acceleration({p.contact, 0}, a_) - p.a_n) : 0;
     if (p.tangent != Participant::Tangent::none)
       off = std::max(off, (system_.slip_acceleration(p.contact, a_) - p.a_t).norm());
-    const double nothing = std::max(p.nothing, complementarity::largest_violation * largest_[std::size_t(p.contact)]);
+    const double nothing =
+        std::max(p.nothing, complementarity::largest_violation * at_.largest[std::size_t(p.contact)]);
     if (!(off <= nothing)) all[island[i]] = false;
   }
   return all;
@@ -227,7 +230,7 @@ std::vector<bool> ContactModes::presses_as_found() const {
   for (std::size_t i = 0; i < island.size(); ++i) {
     const Participant& p = problem_.who[i];
     const double error = most_error_of_forces * largest[i];
-    if (modes_.contacts[p.contact].friction != Friction::slide || p.idle || p.N <= error) continue;
+    if (at_.modes.contacts[p.contact].friction != Friction::slide || p.idle || p.N <= error) continue;
     if (!(system_.normal_force(p.contact, lambda_) > error)) all[island[i]] = false;
   }
   return all;
@@ -237,24 +240,24 @@ std::vector<bool> ContactModes::presses_as_found() const {
 // sliding members move or press otherwise than in the solution.
 std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
   const auto at_bound = [this](const Participant& p) {
-    const bool sticks = modes_.contacts[p.contact].friction == Friction::stick;
+    const bool sticks = at_.modes.contacts[p.contact].friction == Friction::stick;
     return sticks && p.N > 0 && p.at_bound(p.let_go ? p.mu : p.mu_0);
   };
-  if (modes_.shared.empty() || std::none_of(problem_.who.begin(), problem_.who.end(), at_bound)) return {};
-  system_.set_modes(modes_);
+  if (at_.modes.shared.empty() || std::none_of(problem_.who.begin(), problem_.who.end(), at_bound)) return {};
+  system_.set_modes(at_.modes);
   system_.move_to(state.t, state.q, state.v);
   system_.accelerate({}, a_, lambda_);
   const std::vector<bool> moves = moves_as_found(), presses = presses_as_found();
   const std::vector<std::size_t> island = problem_.islands();
   std::vector<Participant*> held;
-  for (std::size_t g = 0; g < modes_.shared.size(); ++g) {
+  for (std::size_t g = 0; g < at_.modes.shared.size(); ++g) {
     const double round_off = round_off_of_loads * system_.largest_load(int(g), lambda_);
     const bool carries = system_.spare_load(int(g), lambda_) >= -round_off;
-    if (carries && !has_sliding(modes_.shared[g])) continue;
+    if (carries && !has_sliding(at_.modes.shared[g])) continue;
     for (std::size_t i = 0; i < island.size(); ++i) {
       Participant& p = problem_.who[i];
       if (carries && moves[island[i]] && presses[island[i]]) continue;
-      if (at_bound(p) && shares_tangents(modes_.shared[g], p.contact)) held.push_back(&p);
+      if (at_bound(p) && shares_tangents(at_.modes.shared[g], p.contact)) held.push_back(&p);
     }
   }
   return held;
@@ -262,10 +265,10 @@ std::vector<Participant*> ContactModes::held_at_bounds(const State& state) {
 
 // The contact keeps T = mu N, as if it slid.
 void ContactModes::keep_at_bound(Participant& p) {
-  model::ContactMode& mode = modes_.contacts[p.contact];
+  model::ContactMode& mode = at_.modes.contacts[p.contact];
   mode.friction = Friction::slide;
   mode.direction = -direction_of(p.T);
-  mode.least_slip = least_slip(p.contact);
+  mode.least_slip = scene_.least_slip(p.contact);
   p.ratio = -p.mu * mode.direction;
 }
 
@@ -277,8 +280,8 @@ std::map<int, model::Carried> ContactModes::carried_by_springs(const std::vector
                                              [&](const Participant* p) { return shares_tangents(group, p->contact); });
   };
   std::map<int, model::Carried> carried;
-  for (int g = 0; g < int(modes_.shared.size()); ++g) {
-    if (decided_by_rule_12(modes_.shared[std::size_t(g)])) continue;
+  for (int g = 0; g < int(at_.modes.shared.size()); ++g) {
+    if (decided_by_rule_12(at_.modes.shared[std::size_t(g)])) continue;
     const double round_off = round_off_of_loads * system_.largest_load(g, lambda_);
     if (system_.spare_load_as_springs(g, lambda_) >= -round_off) continue;
     for (const model::Carried& each : system_.carried_as_springs(g, lambda_)) carried[each.contact] = each;
@@ -291,13 +294,13 @@ std::map<int, model::Carried> ContactModes::carried_by_springs(const std::vector
 bool ContactModes::bound_by_springs(const State& state, const std::vector<Participant*>& held) {
   const auto bounded = [](const Participant& p) { return p.pressed >= 0; };
   const bool any_bounded = std::any_of(problem_.who.begin(), problem_.who.end(), bounded);
-  if (rounds_of_bounds_ > most_rounds_of_bounds || (modes_.shared.empty() && !any_bounded)) return false;
-  if (!has_forces_in(modes_, state)) return false;
+  if (rounds_of_bounds_ > most_rounds_of_bounds || (at_.modes.shared.empty() && !any_bounded)) return false;
+  if (!has_forces_in(at_.modes, state)) return false;
   if (!any_bounded) without_bounds_ = problem_.who;
   const std::map<int, model::Carried> carried = carried_by_springs(held);
   const std::vector<double> largest = problem_.largest_in_island();
-  const double same = any_bounded && same_modes(modes_, modes_so_bounded_) ? most_error_of_forces : same_bound;
-  modes_so_bounded_ = modes_;
+  const double same = any_bounded && same_modes(at_.modes, modes_so_bounded_) ? most_error_of_forces : same_bound;
+  modes_so_bounded_ = at_.modes;
   bool changed = false;
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     Participant& p = problem_.who[i];
@@ -317,7 +320,7 @@ bool ContactModes::bound_by_springs(const State& state, const std::vector<Partic
 
 // Of a contact in the present modes, whose multipliers are lambda_.
 model::Carried ContactModes::carried_in_modes(int contact) {
-  if (!modes_.contacts[std::size_t(contact)].closed) return {contact, 0, 0};
+  if (!at_.modes.contacts[std::size_t(contact)].closed) return {contact, 0, 0};
   return {contact, std::max(0.0, system_.normal_force(contact, lambda_)),
           system_.friction_force(contact, lambda_).norm()};
 }
@@ -334,26 +337,26 @@ bool ContactModes::share_within_bounds(const State& state) {
 
 // Rule 14. Islands which it does not help keep what was decided.
 void ContactModes::share_forces_found(const State& state) {
-  if (std::none_of(modes_.shared.begin(), modes_.shared.end(), has_sliding)) return;
+  if (std::none_of(at_.modes.shared.begin(), at_.modes.shared.end(), has_sliding)) return;
   std::vector<bool> asked = can_be_exerted(state);  // by island
   asked.flip();
   if (!has_any(asked)) return;
-  const model::Modes decided = modes_;
+  const model::Modes decided = at_.modes;
   const std::vector<Participant> found = problem_.who;
   take_verdicts_found();
-  const std::vector<bool> at_edge = problem_.take_fewest_forces(modes_, asked);
+  const std::vector<bool> at_edge = problem_.take_fewest_forces(at_.modes, asked);
   for (std::size_t i = 0; i < at_edge.size(); ++i)
-    if (Participant& p = problem_.who[i]; at_edge[i] && modes_.contacts[p.contact].friction != Friction::slide)
+    if (Participant& p = problem_.who[i]; at_edge[i] && at_.modes.contacts[p.contact].friction != Friction::slide)
       keep_at_bound(p);
   share(std::vector<double>(problem_.who.size(), complementarity::largest_violation));
   const std::vector<bool> exerted = can_be_exerted(state);
   const std::vector<std::size_t> island = problem_.islands();
-  std::vector<bool> helped(modes_.contacts.size(), false);  // by contact
+  std::vector<bool> helped(at_.modes.contacts.size(), false);  // by contact
   for (std::size_t i = 0; i < found.size(); ++i) {
     helped[std::size_t(found[i].contact)] = asked[island[i]] && exerted[island[i]];
     if (!helped[std::size_t(found[i].contact)]) problem_.who[i] = found[i];
   }
-  keep_others(decided, helped, modes_);
+  keep_others(decided, helped, at_.modes);
 }
 
 }  // namespace trammel::simulate

@@ -57,14 +57,14 @@ std::vector<double> sizes_of(std::vector<double> slips) {
 ContactSolution ContactModes::strike_without_collision(State& state, const ContactChanges& changes, bool jumped,
                                                        std::vector<ContactEvent>& events) {
   bool without_collision = false;
-  for (std::size_t left = touching_.size();; --left) {
-    system_.set_modes(before_);
+  for (std::size_t left = at_.touching.size();; --left) {
+    system_.set_modes(at_.before);
     system_.move_to(state.t, state.q, state.v);
     if (jumped || without_collision) {
       append_impacts(state.t, without_collision, events);
       find_touching({});
     }
-    for (TouchingContact& c : touching_) c.keeps_rates = without_collision;
+    for (TouchingContact& c : at_.touching) c.keeps_rates = without_collision;
     const ContactSolution impact = end_slowest_slips(state, changes, jumped || without_collision);
     if (impact.outcome != LcpOutcome::solved) {
       const ContactSolution others =
@@ -84,7 +84,7 @@ ContactSolution ContactModes::strike_without_collision(State& state, const Conta
 // such impact, faster slips may end in it, too.
 ContactSolution ContactModes::end_slowest_slips(State& state, const ContactChanges& changes, bool jumped) {
   std::vector<double> slips;
-  for (TouchingContact& c : touching_) {
+  for (TouchingContact& c : at_.touching) {
     c.slides = slides(c.contact, jumped);
     if (c.slides) slips.push_back(system_.slip(c.contact).norm());
   }
@@ -104,21 +104,21 @@ ContactSolution ContactModes::end_slowest_slips(State& state, const ContactChang
 // Before an impact, by its mode, since its slip may just pass 0.
 bool ContactModes::slides(int contact, bool jumped) {
   if (!system_.model().contacts[std::size_t(contact)].friction) return false;
-  const model::ContactMode& mode = before_.contacts[std::size_t(contact)];
+  const model::ContactMode& mode = at_.before.contacts[std::size_t(contact)];
   const bool in_mode = !jumped && mode.closed && mode.friction == Friction::slide;
-  return in_mode || system_.slip(contact).norm() > scale_.of(contact).rest_speed();
+  return in_mode || system_.slip(contact).norm() > scene_.scale.of(contact).rest_speed();
 }
 
 // With coefficients of friction that are larger by the part `raised`.
 ContactSolution ContactModes::strike_raised(State& state, const ContactChanges& changes, double raised) {
-  for (TouchingContact& c : touching_) c.without_collision = true, c.raised = raised;
-  for (TouchingContact& c : bearings_) c.without_collision = true, c.raised = raised;
+  for (TouchingContact& c : at_.touching) c.without_collision = true, c.raised = raised;
+  for (TouchingContact& c : at_.bearings) c.without_collision = true, c.raised = raised;
   return strike(state, changes);
 }
 
 // Contacts approach by a small part of their slips. Those that slip faster than `slip` go on sliding as they do.
 void ContactModes::find_approaches(double slip) {
-  for (TouchingContact& c : touching_) {
+  for (TouchingContact& c : at_.touching) {
     if (!system_.model().contacts[std::size_t(c.contact)].friction) continue;
     const double own = system_.slip(c.contact).norm();
     c.slides_on = own > slip;
@@ -138,12 +138,12 @@ ContactSolution ContactModes::decide_at_once(State& state, const ContactChanges&
 // Decides as for the state beyond the critical one, and accepts only other modes than the present ones, whose forces
 // grow beyond all bounds.
 ContactSolution ContactModes::decide_otherwise(const State& state, const ContactChanges& changes) {
-  for (TouchingContact& c : touching_) c.without_collision = false;
+  for (TouchingContact& c : at_.touching) c.without_collision = false;
   find_candidates(changes);
   gather(state, changes, false);
-  const auto solution = decide_by_what_follows(state, changes, false, std::vector<bool>(modes_.contacts.size(), true),
-                                               {LcpOutcome::gave_up, 0});
-  if (solution.outcome == LcpOutcome::solved && carry_alike(modes_, before_)) return {LcpOutcome::gave_up, 0};
+  const auto solution = decide_by_what_follows(
+      state, changes, false, std::vector<bool>(at_.modes.contacts.size(), true), {LcpOutcome::gave_up, 0});
+  if (solution.outcome == LcpOutcome::solved && carry_alike(at_.modes, at_.before)) return {LcpOutcome::gave_up, 0};
   return solution;
 }
 
