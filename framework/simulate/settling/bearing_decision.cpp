@@ -117,8 +117,8 @@ complementarity::ContactSolution ContactModes::take_verdicts_under_loads(const S
   for (;;) {
     problem_.who = asked;
     at_.modes = open;
-    const complementarity::ContactSolution solution = take_verdicts(state);
-    if (solution.outcome != LcpOutcome::solved || share_within_bounds(state)) return solution;
+    const complementarity::ContactSolution solution = by_forces_.solve(state);
+    if (solution.outcome != LcpOutcome::solved || by_forces_.share_within_bounds(state)) return solution;
     for (std::size_t i = 0; i < asked.size(); ++i) asked[i].let_go = problem_.who[i].let_go;
   }
 }

@@ -1,10 +1,10 @@
 // Rules 3 to 7 and 11 of contact_mode.hpp: which contacts close, open, stick and slide, by the complementarity problem.
-// Rules 12 to 15, of contacts that share their forces: contact_sharing.cpp.
 #include <algorithm>
 #include <cmath>
 
 #include "simulate/settling/contact_mode.hpp"
-#include "system/point/locks_itself.hpp"
+#include "simulate/verdicts/errors_of_solutions.hpp"
+#include "simulate/verdicts/groups.hpp"
 
 namespace trammel::simulate {
 
@@ -14,8 +14,6 @@ namespace {
 
 using Tangent = Participant::Tangent;
 
-// Rule 11. Forces and accelerations below `undecided` times the error of a solution cannot be distinguished from 0.
-constexpr double undecided = 10;
 // For the state a moment later they can be. Parts of the time in which the scene crosses its length, at its speed or by
 // its accelerations, or in which a slip ends; little else has changed by then. Each is tried if those before it leave
 // the modes in doubt.
@@ -23,8 +21,6 @@ constexpr double moments_later[] = {1e-4, 1e-3, 1e-2};
 
 // Relative to the rates before an impact in its island: what it leaves in the rates that it ends.
 constexpr double error_of_impacts = 1e-9;
-// Relative to the largest acceleration in the island, which may cancel in the others.
-constexpr double error_of_accelerations = 1e-12;
 // Relative to the largest force in the island: what is left, or lacks, of a force at the instant found for its end.
 constexpr double error_of_release = 1e-10;
 // Of `least_slip`: a smaller slip left in a contact at rest turns its friction by no more (system/point/slip.hpp) when
@@ -76,11 +72,6 @@ double ContactModes::unresolved(int contact, const State& state) {
 double ContactModes::least_acceleration(int contact) const {
   const double largest = at_.largest.empty() ? 0 : at_.largest[std::size_t(contact)];
   return std::max(scene_.scale.of(contact).no_acceleration(), error_of_accelerations * largest);
-}
-
-// Of a solution with the violation found.
-double ContactModes::least_acceleration(const Participant& p) const {
-  return std::max(p.nothing, undecided * p.violation * at_.largest[std::size_t(p.contact)]);
 }
 
 // Rule 5: whether the contact is at rest in the tangent, and its coefficients.
@@ -206,7 +197,7 @@ bool ContactModes::end_drift(State& state, ContactChanges& changes, bool jumped)
 complementarity::ContactSolution ContactModes::decide(State& state, ContactChanges changes, bool jumped,
                                                       const std::vector<Participant>& nearby) {
   bearings_undecided_ = false;
-  rounds_of_bounds_ = 0;
+  by_forces_.restart();
   at_.largest.assign(at_.modes.contacts.size(), 0);  // values of an earlier event would be unknown to a resumed run
   do {
     gather(state, changes, jumped);
@@ -219,22 +210,12 @@ complementarity::ContactSolution ContactModes::decide(State& state, ContactChang
     system_.move_to(state.t, state.q, state.v);
     accelerate_participants();
     if (has_bearings()) return decide_with_bearings(state);
-    const complementarity::ContactSolution solution = take_verdicts(state, begin);
+    const complementarity::ContactSolution solution = by_forces_.solve(state, begin);
     if (solution.outcome != LcpOutcome::solved) return solution;
-    if (share_within_bounds(state)) return solution;
-    if (rounds_of_bounds_ > 0) begin = problem_.who;
+    if (by_forces_.share_within_bounds(state)) return solution;
+    if (by_forces_.bounded_by_springs()) begin = problem_.who;
     open_all(at_.modes);
   }
-}
-
-complementarity::ContactSolution ContactModes::take_verdicts(const State& state,
-                                                             const std::vector<Participant>& nearby) {
-  const complementarity::ContactSolution solution = problem_.solve(nearby);
-  if (solution.outcome != LcpOutcome::solved) return solution;
-  take_verdicts_found();
-  find_shares(state);
-  open_pulling_ones(state);
-  return solution;
 }
 
 // Rule 11. By participant: in its island the error of the solution, or of the instant at which a force fell to 0,
@@ -252,8 +233,10 @@ std::vector<bool> ContactModes::in_doubt(const std::vector<int>& released) const
     const Participant& p = problem_.who[i];
     const bool opens = at_.before.contacts[p.contact].closed && !at_.modes.contacts[p.contact].closed;
     const double error = loses_a_force(p.contact) ? std::max(p.violation, error_of_release) : p.violation;
-    const bool just_presses = p.N > 0 && (p.N <= undecided * error * largest[i] || would_hardly_close(i));
-    if (p.unilateral && (just_presses || (opens && p.a_n <= least_acceleration(p)))) open[island[i]] = true;
+    const bool just_presses =
+        p.N > 0 && (p.N <= undecided * error * largest[i] || by_forces_.verdicts().would_hardly_close(i));
+    if (p.unilateral && (just_presses || (opens && p.a_n <= by_forces_.verdicts().least_acceleration(p))))
+      open[island[i]] = true;
   }
   for (const std::size_t k : island) all.push_back(open[k]);
   return all;
@@ -280,38 +263,6 @@ double ContactModes::time_of_change(const std::vector<bool>& asked) {
     if (slips > scene_.scale.of(p.contact).rest_speed() && slips < least * change.norm()) least = slips / change.norm();
   }
   return least;
-}
-
-namespace {
-
-// Members of a group hold each other's forces: if one of them is asked, all are. True if this has added any.
-bool ask_whole_groups(const std::vector<model::SharedRows>& groups, std::vector<bool>& asked) {
-  bool more = false;
-  for (const model::SharedRows& group : groups) {
-    std::vector<int> members = group.sliding;
-    for (const auto* directions : {&group.basis, &group.implied})
-      for (const model::ContactDirection& d : *directions) members.push_back(d.contact);
-    const auto is_asked = [&](int contact) { return asked[std::size_t(contact)]; };
-    if (std::none_of(members.begin(), members.end(), is_asked)) continue;
-    for (const int contact : members)
-      if (!is_asked(contact)) asked[std::size_t(contact)] = more = true;
-  }
-  return more;
-}
-
-}  // namespace
-
-void keep_others(const model::Modes& decided, std::vector<bool> asked, model::Modes& modes) {
-  while (ask_whole_groups(decided.shared, asked) || ask_whole_groups(modes.shared, asked)) {
-  }
-  for (std::size_t i = 0; i < asked.size(); ++i)
-    if (!asked[i]) modes.contacts[i] = decided.contacts[i];
-  const auto is_asked = [&](const model::SharedRows& group) {
-    return asked[std::size_t(group.implied.front().contact)];
-  };
-  std::erase_if(modes.shared, [&](const model::SharedRows& group) { return !is_asked(group); });
-  for (const model::SharedRows& group : decided.shared)
-    if (!is_asked(group)) modes.shared.push_back(group);
 }
 
 // Rule 11. Adds to the contacts asked all that share an island with one of them now: one that was released may press
@@ -376,52 +327,6 @@ void ContactModes::accelerate_participants() {
     Participant& p = problem_.who[i];
     at_.largest[std::size_t(p.contact)] = largest[island[i]];
     p.nothing = std::max(least[island[i]], error_of_accelerations * largest[island[i]]);
-  }
-}
-
-// Sets the modes by the solution that was found last.
-void ContactModes::take_verdicts_found() {
-  std::vector<double> nothing;
-  for (const Participant& p : problem_.who) nothing.push_back(least_acceleration(p));
-  const std::vector<bool> kept_closed = problem_.kept_closed(nothing);
-  const std::vector<double> largest = problem_.largest_in_island();
-  for (std::size_t i = 0; i < problem_.who.size(); ++i) {
-    const Participant& p = problem_.who[i];
-    const bool presses = p.N > 0 && !merely_touches(i, largest[i]);
-    take_verdict(p, !p.unilateral || presses || kept_closed[i]);
-  }
-}
-
-// Rule 3: it was open, its force may be round-off, and its gap would not close without this force. A larger force may
-// be needed although it drives its own gap apart, by friction. `largest`: the largest force in its island.
-bool ContactModes::merely_touches(std::size_t participant, double largest) const {
-  const Participant& p = problem_.who[participant];
-  return p.unilateral && !at_.before.contacts[p.contact].closed && p.N <= most_error_of_forces * largest &&
-         would_hardly_close(participant);
-}
-
-// Without its own force its gap would not accelerate more than by round-off. All forces of an island may be as small (a
-// lid from which Coriolis' force lifts a box).
-bool ContactModes::would_hardly_close(std::size_t participant) const {
-  return problem_.acceleration_without(participant) >= -undecided * least_acceleration(problem_.who[participant]);
-}
-
-void ContactModes::take_verdict(const Participant& p, bool closed) {
-  model::ContactMode& mode = at_.modes.contacts[p.contact];
-  mode.closed = closed;
-  mode.friction = Friction::none;
-  if (!mode.closed || p.tangent == Tangent::none || !system_.model().contacts[p.contact].coulomb) return;
-  mode.friction = Friction::slide;
-  mode.direction = p.direction;
-  mode.least_slip = scene_.least_slip(p.contact);
-  if (p.tangent == Tangent::sliding) return;
-  if (p.a_t.norm() > p.no_slip) {
-    mode.direction = direction_of(p.a_t);
-  } else if (p.yielded && p.at_bound(p.mu)) {  // slides, too slowly to be seen
-    mode.direction = -direction_of(p.T);
-  } else {
-    mode.friction = Friction::stick;
-    if (at_.before.contacts[p.contact].friction != Friction::stick) system_.anchor(p.contact, mode);
   }
 }
 

@@ -127,8 +127,8 @@ complementarity::ContactSolution ContactModes::open_freed(State& state, const Co
   double fastest = 0;
   for (const int contact : all) {
     if (!at_.shared_before[std::size_t(contact)] || !found.contacts[contact].closed || scene_.locks(contact)) continue;
-    if (decide_without(contact).outcome != LcpOutcome::solved || !has_forces_in(at_.modes, state)) continue;
-    const double apart = system_.acceleration({contact, 0}, a_);
+    if (decide_without(contact).outcome != LcpOutcome::solved || !by_forces_.forces().exist(state)) continue;
+    const double apart = system_.acceleration({contact, 0}, by_forces_.forces().a());
     if (apart > std::max(fastest, least_acceleration(contact))) fastest = apart, freed = contact;
   }
   return decide_without(freed);

@@ -5,10 +5,10 @@
 // ContactModes::settle applies them in this order, by these functions:
 //
 //     impact      1, 9  strike, lock (contact_impact.cpp)    2  capture_chatter, end_rocking (chatter.cpp)
-//     decision    3, 4  find_candidates, take_verdicts    5, 6  add_friction          7  stop_with_others, end_drift
-//                 10  decide_with_bearings (bearing_decision.cpp)                    12  held_at_bounds
-//                 13  find_shares, open_pulling_ones      14  share_forces_found          15  bound_by_springs
-//                     (12 to 15: contact_sharing.cpp)
+//     decision    3, 4  find_candidates, Verdicts    5, 6  add_friction, Verdicts   7  stop_with_others, end_drift
+//                 10  decide_with_bearings (bearing_decision.cpp)
+//     verdicts    12  HeldAtBounds    13  IdleContacts    14  ModesByForces::share_forces_found    15  SpringBounds
+//                     (Verdicts and 12 to 15: simulate/verdicts)
 //     in doubt    11  decide_by_what_follows
 //     no solution  8  strike_without_collision, decide_otherwise (impact_without_collision.cpp)
 //
@@ -132,16 +132,9 @@
 #include "simulate/impact/impact_laws.hpp"
 #include "simulate/impact/impact_warnings.hpp"
 #include "simulate/results/contact_event.hpp"
-#include "simulate/settling/contacts_at_event.hpp"
+#include "simulate/verdicts/modes_by_forces.hpp"
 
 namespace trammel::simulate {
-
-// Rules 3 and 13. Of the largest force in the island: a smaller force may be an error of the solution.
-inline constexpr double most_error_of_forces = 1e-6;
-
-// Contacts that are not `asked`, and the groups in which they share, get the modes that were decided before. A group of
-// either modes is asked as a whole, so that none names rows that its contacts do not have.
-void keep_others(const model::Modes& decided, std::vector<bool> asked, model::Modes& modes);
 
 class ContactModes {
  public:
@@ -253,37 +246,6 @@ class ContactModes {
   bool end_drift(State& state, ContactChanges& changes, bool jumped);
   [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped,
                                                         const std::vector<Participant>& nearby = {});
-  [[nodiscard]] complementarity::ContactSolution take_verdicts(const State& state,
-                                                               const std::vector<Participant>& nearby = {});
-  // Rule 13, by island: which contacts are idle.
-  struct Idle {
-    model::Modes decided;            // before any is idle
-    std::vector<double> up_to;       // of the largest force: contacts with no more are idle
-    std::vector<double> least = {};  // of the largest force: the least one of those that are not idle
-    std::vector<bool> doubtful = {};
-  };
-  void find_shares(const State& state);
-  void fewer_idle(const State& state, Idle& idle);
-  void more_idle(const State& state, Idle& idle);
-  bool doubts_remain(const State& state, Idle& idle);
-  void share_doubtful(double up_to, Idle& idle);
-  void share(Idle& idle);
-  void doubt(Idle& idle) const;
-  std::vector<double> share(const std::vector<double>& none);
-  bool open_loose_ones();
-  std::vector<bool> can_be_exerted(const State& state);
-  void open_pulling_ones(const State& state);
-  [[nodiscard]] bool has_forces_in(const model::Modes& modes, const State& state);
-  std::vector<bool> moves_as_found() const;
-  std::vector<bool> presses_as_found() const;
-  std::vector<Participant*> held_at_bounds(const State& state);
-  void keep_at_bound(Participant& p);
-  bool share_within_bounds(const State& state);
-  bool bound_by_springs(const State& state, const std::vector<Participant*>& held);
-  std::map<int, model::Carried> carried_by_springs(const std::vector<Participant*>& held);
-  model::Carried carried_in_modes(int contact);
-  void share_forces_found(const State& state);
-  double least_acceleration(const Participant& p) const;
   std::vector<bool> in_doubt(const std::vector<int>& released) const;
   double time_of_change(const std::vector<bool>& asked);
   std::vector<bool> with_their_islands(std::vector<bool> asked) const;
@@ -305,10 +267,6 @@ class ContactModes {
   void load_bearings_at_rest(const State& state, const model::Modes& open);
   void load_bearings(const State& state, const model::Modes& modes);
   void accelerate_participants();
-  void take_verdicts_found();
-  bool merely_touches(std::size_t participant, double largest) const;
-  bool would_hardly_close(std::size_t participant) const;
-  void take_verdict(const Participant& p, bool closed);
   void finish(State& state, bool carry);
   void append_normal_event(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
   void append_friction_events(const State& state, std::vector<ContactEvent>& events);
@@ -329,15 +287,13 @@ class ContactModes {
   ImpactLaws impact_;
   ImpactWarnings impact_warnings_;
   ContactProblem problem_;
+  ModesByForces by_forces_{scene_, at_, problem_};
   std::vector<int> candidates_;
   std::vector<Eigen::Vector3d> forces_before_;  // by contact and direction [N], where some are carried over
   std::vector<Loss> losses_;
   double lost_elsewhere_ = 0;
-  bool cut_short_ = false;                   // some of the last impacts had not ended (ImpactLaws::cut_short)
-  int rounds_of_bounds_ = 0;                 // rule 15, in the last decision
-  std::vector<Participant> without_bounds_;  // before the first of these rounds
-  model::Modes modes_so_bounded_;            // decided in the round before
-  bool bearings_undecided_ = false;          // in the last decision no modes agreed with the loads of the bearings
+  bool cut_short_ = false;           // some of the last impacts had not ended (ImpactLaws::cut_short)
+  bool bearings_undecided_ = false;  // in the last decision no modes agreed with the loads of the bearings
   Vec dv_, v_before_, a_, lambda_, lambda_before_;
 };
 

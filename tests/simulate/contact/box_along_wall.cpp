@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "simulate/settling/contact_mode.hpp"
+#include "simulate/verdicts/groups.hpp"
 
 #include "support/run_scene.hpp"
 

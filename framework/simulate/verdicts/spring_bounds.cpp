@@ -1,0 +1,76 @@
+#include "simulate/verdicts/spring_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulate/verdicts/errors_of_solutions.hpp"
+#include "simulate/verdicts/groups.hpp"
+#include "simulate/verdicts/held_at_bounds.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+// Of the largest force in the island: bounds that differ by less are the same. In the same modes these do not depend on
+// the bounds, and the forces may have errors.
+constexpr double same_bound = 1e-9;
+constexpr int most_rounds = 10;
+
+bool same_modes(const model::Modes& one, const model::Modes& other) {
+  return std::equal(one.contacts.begin(), one.contacts.end(), other.contacts.begin(), other.contacts.end(),
+                    [](const auto& a, const auto& b) { return a.closed == b.closed && a.friction == b.friction; });
+}
+
+}  // namespace
+
+// By contact: what members of groups carry as springs, if such forces do not hold those at rest. `held` are at their
+// bounds beside sliding ones (rule 12).
+std::map<int, model::Carried> SpringBounds::carried_by_springs(const std::vector<Participant*>& held) {
+  const auto decided_by_rule_12 = [&held](const model::SharedRows& group) {
+    return has_sliding(group) && std::any_of(held.begin(), held.end(),
+                                             [&](const Participant* p) { return shares_tangents(group, p->contact); });
+  };
+  std::map<int, model::Carried> carried;
+  for (int g = 0; g < int(at_.modes.shared.size()); ++g) {
+    if (decided_by_rule_12(at_.modes.shared[std::size_t(g)])) continue;
+    const double round_off = round_off_of_loads * system_.largest_load(g, forces_.lambda());
+    if (system_.spare_load_as_springs(g, forces_.lambda()) >= -round_off) continue;
+    for (const model::Carried& each : system_.carried_as_springs(g, forces_.lambda())) carried[each.contact] = each;
+  }
+  return carried;
+}
+
+bool SpringBounds::bound_by_springs(const State& state, const std::vector<Participant*>& held) {
+  const auto bounded = [](const Participant& p) { return p.pressed >= 0; };
+  const bool any_bounded = std::any_of(problem_.who.begin(), problem_.who.end(), bounded);
+  if (rounds_ > most_rounds || (at_.modes.shared.empty() && !any_bounded)) return false;
+  if (!forces_.exist(state)) return false;
+  if (!any_bounded) without_bounds_ = problem_.who;
+  const std::map<int, model::Carried> carried = carried_by_springs(held);
+  const std::vector<double> largest = problem_.largest_in_island();
+  const double same = any_bounded && same_modes(at_.modes, modes_so_bounded_) ? most_error_of_forces : same_bound;
+  modes_so_bounded_ = at_.modes;
+  bool changed = false;
+  for (std::size_t i = 0; i < problem_.who.size(); ++i) {
+    Participant& p = problem_.who[i];
+    const auto by_springs = carried.find(p.contact);
+    if (!p.unilateral || p.tangent == Participant::Tangent::none) continue;
+    if (!bounded(p) && by_springs == carried.end()) continue;
+    const auto [contact, N, T] = by_springs != carried.end() ? by_springs->second : carried_in_modes(p.contact);
+    if (bounded(p) && std::abs(N - p.pressed) <= same * largest[i]) continue;
+    const bool rests = p.tangent == Participant::Tangent::resting;
+    if (rests && T > (1 - Participant::near_bound) * (p.let_go ? p.mu : p.mu_0) * N) p.let_go = p.yielded = true;
+    p.pressed = N;
+    changed = true;
+  }
+  if (changed && ++rounds_ > most_rounds) problem_.who = without_bounds_;
+  return changed;
+}
+
+// Of a contact in the present modes, whose forces have been found.
+model::Carried SpringBounds::carried_in_modes(int contact) {
+  if (!at_.modes.contacts[std::size_t(contact)].closed) return {contact, 0, 0};
+  return {contact, std::max(0.0, system_.normal_force(contact, forces_.lambda())),
+          system_.friction_force(contact, forces_.lambda()).norm()};
+}
+
+}  // namespace trammel::simulate
