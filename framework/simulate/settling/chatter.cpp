@@ -53,10 +53,10 @@ ContactModes::Brief ContactModes::too_brief(const State& state, const ContactCha
   const auto moves = [this](const TouchingContact& c) { return separates(c) || begins_to_slip(c); };
   if (scene_.chatter_steps <= 0 || std::none_of(at_.touching.begin(), at_.touching.end(), moves)) return brief;
   system_.move_to(state.t, state.q, state.v);
-  find_candidates(changes);
+  candidates_ = participants_.candidates(changes);
   const std::size_t at_rest_now = candidates_.size();
   model::Modes open = at_.modes;
-  open_all(open);
+  participants_.open_all(open);
   system_.set_modes(open);
   system_.move_to(state.t, state.q, state.v);
   std::map<std::size_t, double> fastest = fastest_gap_accelerations();
@@ -64,7 +64,7 @@ ContactModes::Brief ContactModes::too_brief(const State& state, const ContactCha
     if (separates(c) && !contains(candidates_, c.contact) &&
         cannot_follow(c.contact, c.after, -fastest[scene_.scale.island(c.contact)]))
       candidates_.push_back(c.contact);
-  gather(state, changes, true);
+  problem_.who = participants_.gather(candidates_, {state, changes, true});
   bool slips = false;
   for (Participant& p : problem_.who)
     if (p.tangent == Tangent::sliding && beginning_to_slip(p)) p.tangent = Tangent::resting, slips = true;
@@ -83,7 +83,7 @@ void ContactModes::judge_brief(const State& state, std::size_t at_rest_now, Brie
   problem_.come_to_rest(system_, change);
   system_.move_to(state.t, state.q, state.v + change);
   do {
-    accelerate_participants();
+    participants_.accelerate(problem_);
     if (problem_.solve({}, complementarity::ModeSearch::none).outcome != LcpOutcome::solved) return;
   } while (let_fast_slips_go());
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {

@@ -12,7 +12,7 @@ namespace trammel::simulate {
 using complementarity::LcpOutcome;
 
 void ContactModes::fail_without_balance(double t, const complementarity::ContactSolution& solution) const {
-  fail_without_solution("balance of forces", t, solution, problem_.who);
+  fail_without_solution("balance of forces", t, solution, decision_.instant().problem().who);
 }
 
 void ContactModes::fail_without_impact(double t, const complementarity::ContactSolution& solution) const {
@@ -55,7 +55,7 @@ void ContactModes::fail_without_solution(const char* what, double t, const compl
   const std::string advice = contacts.empty() ? "" : fmt::format("; {}, has one", other_law(rigid));
   const std::string of_contacts = contacts.empty() ? "" : "contacts " + contacts;
   std::string of = of_contacts + (contacts.empty() || joints.empty() ? "" : " and ") + joints, why;
-  if (solution.outcome == LcpOutcome::gave_up && bearings_undecided_)
+  if (solution.outcome == LcpOutcome::gave_up && decision_.instant().bearings_undecided())
     why = fmt::format(
         "was not found: no modes of {}, sticking or sliding, agree with the loads of the bearings that follow from "
         "them; with so much friction a joint may lock itself",

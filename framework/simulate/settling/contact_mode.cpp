@@ -4,6 +4,8 @@
 #include <limits>
 #include <numbers>
 
+#include "simulate/verdicts/groups.hpp"
+
 namespace trammel::simulate {
 
 using complementarity::LcpOutcome;
@@ -14,20 +16,8 @@ namespace {
 // scales with 1/approach_speed gives no damping. (Otherwise 1/speed would hold it with an unbounded viscosity, which
 // fixed steps cannot follow.)
 constexpr double least_approach = 1e-6;
-// Of the accelerations. A contact that has just opened departs as slowly as its force passed 0, up to the round-off of
-// forces.
-constexpr double opened_by_error = 1e-6;
-// Of `no_acceleration`, which is their round-off: the accelerations of the scene.
-constexpr double over_round_off = 1e12;
 // Of the shortest period of swings: the longest step (see step_limit).
 constexpr double part_of_period = 0.45;
-
-// How many rows follow from others, and have no multiplier of their own.
-std::size_t implied_rows(const model::Modes& modes) {
-  std::size_t count = 0;
-  for (const model::SharedRows& group : modes.shared) count += group.implied.size();
-  return count;
-}
 
 // Only friction makes forces grow beyond all bounds: without it an impact without collision changes nothing.
 bool any_friction(const std::vector<Participant>& who) {
@@ -60,9 +50,9 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
     if (impact.outcome != LcpOutcome::solved) fail_without_impact(state.t, impact);
   }
   lock(state, changes, events);
-  auto solution = decide_with_doubts(state, changes, jumped);
-  const bool without_collision =
-      solution.outcome == LcpOutcome::no_solution && (changes.locked || any_friction(problem_.who));
+  auto solution = decision_.decide(state, changes, jumped);
+  const bool without_collision = solution.outcome == LcpOutcome::no_solution &&
+                                 (changes.locked || any_friction(decision_.instant().problem().who));
   if (without_collision) solution = strike_without_collision(state, changes, jumped, events);
   if (solution.outcome != LcpOutcome::solved) fail_without_balance(state.t, solution);
   take_approach_speeds(changes);
@@ -87,53 +77,6 @@ bool ContactModes::any_approaches() const {
                      [this](const TouchingContact& c) { return c.before < -scene_.scale.of(c.contact).rest_speed(); });
 }
 
-// Rules 3 to 7; rule 11 where the problem at this instant leaves modes in doubt. If there is no solution, an impact
-// without collision follows (rule 8).
-complementarity::ContactSolution ContactModes::decide_with_doubts(State& state, const ContactChanges& changes,
-                                                                  bool jumped) {
-  find_candidates(changes);
-  if (changes.locked) return {LcpOutcome::no_solution, 0};
-  auto solution = decide(state, changes, jumped);
-  if (solution.outcome == LcpOutcome::solved) solution = open_freed(state, changes, jumped, solution);
-  if (solution.outcome == LcpOutcome::solved && changes_sign_by_infinity(state, changes)) {
-    ContactChanges others = changes;
-    others.released.clear();
-    find_candidates(others);
-    solution = decide(state, others, jumped);
-  }
-  if (solution.outcome == LcpOutcome::no_solution) return solution;
-  std::vector<bool> asked(at_.modes.contacts.size(), solution.outcome == LcpOutcome::gave_up);
-  if (solution.outcome == LcpOutcome::solved) {
-    const std::vector<bool> open = in_doubt(changes.released);
-    if (std::find(open.begin(), open.end(), true) == open.end()) return solution;
-    for (std::size_t i = 0; i < open.size(); ++i) asked[std::size_t(problem_.who[i].contact)] = open[i];
-  }
-  return decide_by_what_follows(state, changes, jumped, asked, solution);
-}
-
-// Rule 13. Where a row follows from others no more: of several solutions, the one in which a contact that shared opens
-// and parts with the largest acceleration.
-complementarity::ContactSolution ContactModes::open_freed(State& state, const ContactChanges& changes, bool jumped,
-                                                          const complementarity::ContactSolution& so_far) {
-  if (!changes.leaning || implied_rows(at_.modes) >= implied_rows(at_.before)) return so_far;
-  const std::vector<int> all = candidates_;
-  const model::Modes found = at_.modes;
-  const auto decide_without = [&](int contact) {
-    candidates_ = all;
-    std::erase(candidates_, contact);
-    return decide(state, changes, jumped);
-  };
-  int freed = -1;
-  double fastest = 0;
-  for (const int contact : all) {
-    if (!at_.shared_before[std::size_t(contact)] || !found.contacts[contact].closed || scene_.locks(contact)) continue;
-    if (decide_without(contact).outcome != LcpOutcome::solved || !by_forces_.forces().exist(state)) continue;
-    const double apart = system_.acceleration({contact, 0}, by_forces_.forces().a());
-    if (apart > std::max(fastest, least_acceleration(contact))) fastest = apart, freed = contact;
-  }
-  return decide_without(freed);
-}
-
 void ContactModes::take_approach_speeds(const ContactChanges& changes) {
   for (const TouchingContact& c : at_.touching)
     if (contains(changes.struck, c.contact) || (!c.was_closed && c.impulse > 0))
@@ -144,28 +87,6 @@ bool ContactModes::carries_forces(const ContactChanges& changes) const {
   return std::any_of(at_.touching.begin(), at_.touching.end(), [&](const TouchingContact& c) {
     return (contains(changes.struck, c.contact) || contains(changes.released, c.contact)) &&
            scene_.treatment(c.contact).restart == Restitution::Restart::carry;
-  });
-}
-
-// The force of a sliding contact may change its sign through infinity (Painleve's critical state): without the force
-// the contact would then approach. A force that passes 0 leaves an acceleration that passes 0 too: its sign is
-// round-off.
-bool ContactModes::changes_sign_by_infinity(const State& state, const ContactChanges& changes) {
-  const std::vector<int>& released = changes.released;
-  const bool slides = std::any_of(problem_.who.begin(), problem_.who.end(),
-                                  [](const Participant& p) { return p.tangent == Participant::Tangent::sliding; }) ||
-                      std::any_of(released.begin(), released.end(), [this](int contact) {
-                        return at_.before.contacts[contact].friction == Friction::slide;
-                      });
-  if (released.empty() || !slides) return false;
-  system_.set_modes(at_.modes);
-  system_.move_to(state.t, state.q, state.v);
-  system_.accelerate({}, a_, lambda_);
-  return std::any_of(released.begin(), released.end(), [&](int contact) {
-    const double of_scene = over_round_off * scene_.scale.of(contact).no_acceleration();
-    return !at_.modes.contacts[contact].closed &&
-           system_.acceleration({contact, 0}, a_) <
-               -opened_by_error * std::max(at_.largest[std::size_t(contact)], of_scene);
   });
 }
 
@@ -212,7 +133,8 @@ void ContactModes::prepare_present(const State& state) {
   for (int i = 0; i < int(at_.modes.contacts.size()); ++i)
     if (at_.modes.contacts[i].closed && system_.model().contacts[i].restitution && !scene_.locks(i))
       candidates_.push_back(i);
-  gather(state, {}, false);
+  const ContactChanges none;
+  problem_.who = participants_.gather(candidates_, {state, none, false});
   at_.modes = at_.before;
   for (Participant& p : problem_.who) p.idle = system_.sharing(p.contact).idle;
   problem_.prepare(system_);
@@ -313,7 +235,7 @@ void ContactModes::append_normal_event(const State& state, const TouchingContact
   ContactEvent event{.t = state.t, .contact = c.contact, .approach = -c.before, .separation = c.after};
   if (closed != c.was_closed) {
     event.kind = closed ? Kind::close : Kind::open;
-  } else if (!closed && contains(candidates_, c.contact) && c.impulse > 0) {
+  } else if (!closed && contains(decision_.instant().candidates(), c.contact) && c.impulse > 0) {
     event.kind = Kind::lift;
   } else {
     return;

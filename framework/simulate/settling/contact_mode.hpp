@@ -5,11 +5,9 @@
 // ContactModes::settle applies them in this order, by these functions:
 //
 //     impact      1, 9  strike, lock (contact_impact.cpp)    2  capture_chatter, end_rocking (chatter.cpp)
-//     decision    3, 4  find_candidates, Verdicts    5, 6  add_friction, Verdicts   7  stop_with_others, end_drift
-//                 10  decide_with_bearings (bearing_decision.cpp)
-//     verdicts    12  HeldAtBounds    13  IdleContacts    14  ModesByForces::share_forces_found    15  SpringBounds
-//                     (Verdicts and 12 to 15: simulate/verdicts)
-//     in doubt    11  decide_by_what_follows
+//     decision    3, 5  Participants    7  Drift    10  BearingDecision    11  WhatFollows    (simulate/decision)
+//     verdicts    3 to 6  Verdicts    12  HeldAtBounds    13  IdleContacts    14  ModesByForces::share_forces_found
+//                 15  SpringBounds    (simulate/verdicts)
 //     no solution  8  strike_without_collision, decide_otherwise (impact_without_collision.cpp)
 //
 //  1. Impact: every contact that touches and closes strikes, together with all that touch or are closed, of bodies that
@@ -70,7 +68,7 @@
 //  9. A contact that never releases (a latch) locks after rule 1 if it touches without a rate. It is no candidate; its
 //     row is held like a joint's from then on, through the decision that follows and all later impacts.
 // 10. Joints with friction take part like compliant contacts; their normal force is the load of their bearings. This
-//     load depends on the forces sought, so the problem is solved in rounds (bearing_decision.cpp). In impacts they rub
+//     load depends on the forces sought, so the problem is solved in rounds (bearing_decision.hpp). In impacts they rub
 //     under the impulses of their reactions (bearing_impulses.hpp). A joint that locks itself while it slides has no
 //     finite forces: it jams by rule 8. Rounds that find no modes prove nothing; where everything rests, loads exist
 //     and are sought as in impacts.
@@ -129,10 +127,11 @@
 #include "simulate/contact/contact_changes.hpp"
 #include "simulate/contact/contact_problem.hpp"
 #include "simulate/contact/contact_scene.hpp"
+#include "simulate/decision/mode_decision.hpp"
 #include "simulate/impact/impact_laws.hpp"
 #include "simulate/impact/impact_warnings.hpp"
 #include "simulate/results/contact_event.hpp"
-#include "simulate/verdicts/modes_by_forces.hpp"
+#include "simulate/verdicts/contacts_at_event.hpp"
 
 namespace trammel::simulate {
 
@@ -157,7 +156,9 @@ class ContactModes {
   ImpactWarnings& impact_warnings() { return impact_warnings_; }
   const ImpactWarnings& impact_warnings() const { return impact_warnings_; }
 
-  double least_acceleration(int contact) const;  // [m/s^2] a smaller one counts as no acceleration
+  double least_acceleration(int contact) const {  // [m/s^2] a smaller one counts as no acceleration
+    return decision_.instant().least_acceleration(contact);
+  }
   // How near the forces of sliding contacts are to having no solution: the least pivot of their equations relative to
   // that without friction; 0 at Painleve's critical state, 1 far from it.
   double distance_from_critical(const State& state);
@@ -185,13 +186,8 @@ class ContactModes {
   void begin(const State& state);
   void prepare_present(const State& state);
   bool any_approaches() const;
-  [[nodiscard]] complementarity::ContactSolution decide_with_doubts(State& state, const ContactChanges& changes,
-                                                                    bool jumped);
-  [[nodiscard]] complementarity::ContactSolution open_freed(State& state, const ContactChanges& changes, bool jumped,
-                                                            const complementarity::ContactSolution& so_far);
   void take_approach_speeds(const ContactChanges& changes);
   bool carries_forces(const ContactChanges& changes) const;
-  bool changes_sign_by_infinity(const State& state, const ContactChanges& changes);
   [[nodiscard]] complementarity::ContactSolution strike_without_collision(State& state, const ContactChanges& changes,
                                                                           bool jumped,
                                                                           std::vector<ContactEvent>& events);
@@ -236,42 +232,10 @@ class ContactModes {
   double take_rates(State& state, const std::vector<bool>& rests, const std::vector<bool>& stops);
   bool cannot_follow(int contact, double separation, double acceleration) const;
   void lock(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
-  double error_of_impact(int contact) const;
-  void find_candidates(const ContactChanges& changes);
-  void open_all(model::Modes& modes) const;
-  void gather(const State& state, const ContactChanges& changes, bool jumped);
-  void gather_compliant(int contact, const State& state, const ContactChanges& changes, bool jumped);
-  void add_friction(const State& state, Participant& p, const ContactChanges& changes, bool jumped);
-  bool stop_with_others(ContactChanges& changes);
-  bool end_drift(State& state, ContactChanges& changes, bool jumped);
-  [[nodiscard]] complementarity::ContactSolution decide(State& state, ContactChanges changes, bool jumped,
-                                                        const std::vector<Participant>& nearby = {});
-  std::vector<bool> in_doubt(const std::vector<int>& released) const;
-  double time_of_change(const std::vector<bool>& asked);
-  std::vector<bool> with_their_islands(std::vector<bool> asked) const;
-  [[nodiscard]] complementarity::ContactSolution decide_by_what_follows(const State& state, ContactChanges changes,
-                                                                        bool jumped, const std::vector<bool>& asked,
-                                                                        complementarity::ContactSolution so_far);
-  // For joints with friction (bearing_decision.cpp).
-  bool has_bearings() const;
-  [[nodiscard]] complementarity::ContactSolution decide_with_bearings(const State& state);
-  [[nodiscard]] complementarity::ContactSolution decide_in_rounds(const State& state, std::vector<Participant> asked,
-                                                                  const model::Modes& open);
-  [[nodiscard]] complementarity::ContactSolution decide_bearings_at_rest(const State& state,
-                                                                         const std::vector<Participant>& asked,
-                                                                         const model::Modes& open);
-  [[nodiscard]] complementarity::ContactSolution take_verdicts_under_loads(const State& state,
-                                                                           std::vector<Participant> asked,
-                                                                           const model::Modes& open);
-  bool was_not_held(const Participant& p, const model::Modes* loads) const;
-  void load_bearings_at_rest(const State& state, const model::Modes& open);
-  void load_bearings(const State& state, const model::Modes& modes);
-  void accelerate_participants();
   void finish(State& state, bool carry);
   void append_normal_event(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
   void append_friction_events(const State& state, std::vector<ContactEvent>& events);
   double rest_speed(const std::vector<TouchingContact>& contacts) const;  // [m/s] the largest of their thresholds
-  double unresolved(int contact, const State& state);
   void keep_forces(const State& state);
   void carry_forces(Vec& lambda) const;
   // contact_failure.cpp
@@ -284,16 +248,16 @@ class ContactModes {
   ContactScene scene_;
   model::AssembledSystem& system_;
   ContactsAtEvent at_;
+  ModeDecision decision_{scene_, at_};
   ImpactLaws impact_;
   ImpactWarnings impact_warnings_;
+  Participants participants_{scene_, at_};
   ContactProblem problem_;
-  ModesByForces by_forces_{scene_, at_, problem_};
   std::vector<int> candidates_;
   std::vector<Eigen::Vector3d> forces_before_;  // by contact and direction [N], where some are carried over
   std::vector<Loss> losses_;
   double lost_elsewhere_ = 0;
-  bool cut_short_ = false;           // some of the last impacts had not ended (ImpactLaws::cut_short)
-  bool bearings_undecided_ = false;  // in the last decision no modes agreed with the loads of the bearings
+  bool cut_short_ = false;  // some of the last impacts had not ended (ImpactLaws::cut_short)
   Vec dv_, v_before_, a_, lambda_, lambda_before_;
 };
 

@@ -73,8 +73,7 @@ ContactSolution ContactModes::strike_without_collision(State& state, const Conta
       return others;
     }
     lock(state, changes, events);
-    find_candidates(changes);
-    const ContactSolution solution = decide(state, changes, true);
+    const ContactSolution solution = decision_.instant().decide(state, changes, true);
     if (solution.outcome != LcpOutcome::no_solution || left == 0) return solution;
     without_collision = true;
   }
@@ -131,17 +130,15 @@ void ContactModes::find_approaches(double slip) {
 ContactSolution ContactModes::decide_at_once(State& state, const ContactChanges& changes, bool jumped) {
   ContactChanges others = changes;
   others.released.clear();
-  find_candidates(others);
-  return decide(state, others, jumped);
+  return decision_.instant().decide(state, others, jumped);
 }
 
 // Decides as for the state beyond the critical one, and accepts only other modes than the present ones, whose forces
 // grow beyond all bounds.
 ContactSolution ContactModes::decide_otherwise(const State& state, const ContactChanges& changes) {
   for (TouchingContact& c : at_.touching) c.without_collision = false;
-  find_candidates(changes);
-  gather(state, changes, false);
-  const auto solution = decide_by_what_follows(
+  decision_.instant().gather({state, changes, false});
+  const auto solution = decision_.what_follows().decide(
       state, changes, false, std::vector<bool>(at_.modes.contacts.size(), true), {LcpOutcome::gave_up, 0});
   if (solution.outcome == LcpOutcome::solved && carry_alike(at_.modes, at_.before)) return {LcpOutcome::gave_up, 0};
   return solution;

@@ -23,6 +23,12 @@ bool ask_whole_groups(const std::vector<model::SharedRows>& groups, std::vector<
 
 }  // namespace
 
+std::size_t implied_rows(const model::Modes& modes) {
+  std::size_t count = 0;
+  for (const model::SharedRows& group : modes.shared) count += group.implied.size();
+  return count;
+}
+
 bool shares_tangents(const model::SharedRows& group, int contact) {
   const auto is = [contact](const model::ContactDirection& d) { return d.contact == contact && d.row > 0; };
   return std::any_of(group.basis.begin(), group.basis.end(), is) ||

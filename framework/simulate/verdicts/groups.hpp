@@ -10,6 +10,7 @@ namespace trammel::simulate {
 inline bool has_sliding(const model::SharedRows& group) {
   return !group.sliding.empty();
 }
+std::size_t implied_rows(const model::Modes& modes);  // that follow from others, and have no multiplier of their own
 bool shares_tangents(const model::SharedRows& group, int contact);
 // Contacts that are not `asked`, and the groups in which they share, get the modes that were decided before. A group of
 // either modes is asked as a whole, so that none names rows that its contacts do not have.

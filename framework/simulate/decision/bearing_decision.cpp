@@ -1,31 +1,14 @@
-// Rule 10 of contact_mode.hpp: which joints with friction stick and slide.
-//
-// The loads of their bearings bound the friction. They follow from the reactions, and these from the friction and from
-// all contacts. Rounds find modes that agree with their own loads:
-//
-//     modes of the last round -> their exact loads (AssembledSystem::accelerate) -> problem with these loads given ->
-//     modes
-//
-// A joint that locks itself while it slides has no such load: it jams (rule 8). Where everything rests, rounds that
-// meet such modes prove nothing: loads exist, since large ones hold all joints. They are found as in impacts
-// (impact/bearing_impulses.hpp, with forces for impulses).
-//
-// A round that gives the same modes again is the check: it has solved the whole problem with the loads of its own
-// solution. The first round uses the loads of modes in which everything rests that may rest; so a joint that could rest
-// or slide rests. If there are none, it uses the loads without friction.
-//
-// Rounds may return to earlier modes: mu_0 times the load at rest does not hold the joint, but mu_0 times the load
-// while it slides would. In such a cycle each joint that was not held under the load of its own rest has let go, and mu
-// decides for it, as after rule 6. If no further joint lets go in a cycle, no modes were found, which proves nothing.
+#include "simulate/decision/bearing_decision.hpp"
+
 #include <algorithm>
 
 #include "simulate/impact/bearing_impulses.hpp"
-#include "simulate/settling/contact_mode.hpp"
 #include "system/point/locks_itself.hpp"
 
 namespace trammel::simulate {
 
 using complementarity::LcpOutcome;
+using Friction = model::ContactMode::Friction;
 
 namespace {
 
@@ -44,7 +27,7 @@ bool agree(const model::Modes& a, const model::Modes& b) {
 bool all_have_rows(const std::vector<model::SharedRows>& groups, const model::Modes& modes) {
   const auto has_row = [&](const model::ContactDirection& d) {
     const model::ContactMode& mode = modes.contacts[std::size_t(d.contact)];
-    return mode.closed && (d.row == 0 || mode.friction == model::ContactMode::Friction::stick);
+    return mode.closed && (d.row == 0 || mode.friction == Friction::stick);
   };
   return std::all_of(groups.begin(), groups.end(), [&](const model::SharedRows& group) {
     return std::all_of(group.basis.begin(), group.basis.end(), has_row) &&
@@ -54,7 +37,6 @@ bool all_have_rows(const std::vector<model::SharedRows>& groups, const model::Mo
 
 // At the system's point.
 void take_tangent(const Participant& p, model::AssembledSystem& system, model::ContactMode& mode) {
-  using Friction = model::ContactMode::Friction;
   const bool rests = p.tangent == Participant::Tangent::resting;
   if (rests && mode.friction != Friction::stick) system.anchor(p.contact, mode);
   mode.friction = rests ? Friction::stick : Friction::slide;
@@ -63,27 +45,29 @@ void take_tangent(const Participant& p, model::AssembledSystem& system, model::C
 
 }  // namespace
 
-bool ContactModes::has_bearings() const {
-  return std::any_of(problem_.who.begin(), problem_.who.end(),
-                     [this](const Participant& p) { return system_.model().contacts[p.contact].joint.has_value(); });
+bool BearingDecision::is_joint(const Participant& p) const {
+  return system_.model().contacts[p.contact].joint.has_value();
+}
+
+bool BearingDecision::any_bearings() const {
+  return std::any_of(problem_.who.begin(), problem_.who.end(), [this](const Participant& p) { return is_joint(p); });
 }
 
 // Sets the given normal forces of the joints to their loads in these modes.
-void ContactModes::load_bearings(const State& state, const model::Modes& modes) {
+void BearingDecision::load_bearings(const State& state, const model::Modes& modes) {
   system_.set_modes(modes);
   system_.move_to(state.t, state.q, state.v);
-  Vec a;
-  system_.accelerate({}, a, lambda_);
+  Vec a, lambda;
+  system_.accelerate({}, a, lambda);
   for (Participant& p : problem_.who)
-    if (system_.model().contacts[p.contact].joint) p.given = system_.normal_force(p.contact, lambda_);
+    if (is_joint(p)) p.given = system_.normal_force(p.contact, lambda);
 }
 
-void ContactModes::load_bearings_at_rest(const State& state, const model::Modes& open) {
+void BearingDecision::load_bearings_at_rest(const State& state, const model::Modes& open) {
   model::Modes at_rest = open;
   for (const Participant& p : problem_.who) {
     model::ContactMode& mode = at_rest.contacts[p.contact];
-    const bool joint = system_.model().contacts[p.contact].joint.has_value();
-    if (!joint) {
+    if (!is_joint(p)) {
       mode = at_.before.contacts[p.contact];
       continue;
     }
@@ -102,18 +86,17 @@ void ContactModes::load_bearings_at_rest(const State& state, const model::Modes&
 }
 
 // The joint was at rest in the modes that gave its load (null: the modes of load_bearings_at_rest) and slides under it.
-bool ContactModes::was_not_held(const Participant& p, const model::Modes* loads) const {
-  return system_.model().contacts[p.contact].joint && p.tangent == Participant::Tangent::resting &&
+bool BearingDecision::was_not_held(const Participant& p, const model::Modes* loads) const {
+  return is_joint(p) && p.tangent == Participant::Tangent::resting &&
          at_.modes.contacts[p.contact].friction == Friction::slide &&
          (!loads || loads->contacts[p.contact].friction == Friction::stick);
 }
 
 // Decides all modes with the joints' present loads given.
-complementarity::ContactSolution ContactModes::take_verdicts_under_loads(const State& state,
-                                                                         std::vector<Participant> asked,
-                                                                         const model::Modes& open) {
+complementarity::ContactSolution BearingDecision::take_verdicts_under_loads(const State& state, Asked asked,
+                                                                            const model::Modes& open) {
   for (std::size_t i = 0; i < asked.size(); ++i)
-    if (system_.model().contacts[asked[i].contact].joint) asked[i].given = problem_.who[i].given;
+    if (is_joint(asked[i])) asked[i].given = problem_.who[i].given;
   for (;;) {
     problem_.who = asked;
     at_.modes = open;
@@ -124,18 +107,17 @@ complementarity::ContactSolution ContactModes::take_verdicts_under_loads(const S
 }
 
 // `asked`: participants none of which slides.
-complementarity::ContactSolution ContactModes::decide_bearings_at_rest(const State& state,
-                                                                       const std::vector<Participant>& asked,
-                                                                       const model::Modes& open) {
+complementarity::ContactSolution BearingDecision::decide_at_rest(const State& state, const Asked& asked,
+                                                                 const model::Modes& open) {
   BearingImpulses bearings;
-  Vec a;
+  Vec a, lambda;
   double nothing = 0;
   for (const Participant& p : asked) nothing = std::max(nothing, p.nothing);
   for (const auto from : {BearingImpulses::From::nothing, BearingImpulses::From::held}) try {
       system_.set_modes(open);
       system_.move_to(state.t, state.q, state.v);
-      system_.accelerate({}, a, lambda_);
-      const Vec applied = lambda_.head(system_.held_rows());
+      system_.accelerate({}, a, lambda);
+      const Vec applied = lambda.head(system_.held_rows());
       bearings.prepare(system_, state, asked);
       problem_.who = asked;
       if (bearings.solve(problem_, nothing, from, applied).outcome != LcpOutcome::solved) continue;
@@ -144,16 +126,16 @@ complementarity::ContactSolution ContactModes::decide_bearings_at_rest(const Sta
       load_bearings(state, found);
       const auto solution = take_verdicts_under_loads(state, asked, open);
       if (solution.outcome != LcpOutcome::solved || !agree(at_.modes, found)) continue;
-      bearings_undecided_ = false;
+      undecided_ = false;
       return solution;
     } catch (const model::LocksItself&) {
     }
-  bearings_undecided_ = true;
+  undecided_ = true;
   return {LcpOutcome::gave_up, 0};
 }
 
-complementarity::ContactSolution ContactModes::decide_with_bearings(const State& state) {
-  const std::vector<Participant> asked = problem_.who;
+complementarity::ContactSolution BearingDecision::decide(const State& state) {
+  const Asked asked = problem_.who;
   const model::Modes open = at_.modes;
   const auto rests = [](const Participant& p) { return p.tangent != Participant::Tangent::sliding; };
   const bool all_rest = std::all_of(asked.begin(), asked.end(), rests);
@@ -163,11 +145,11 @@ complementarity::ContactSolution ContactModes::decide_with_bearings(const State&
   } catch (const model::LocksItself&) {
     if (!all_rest) return {LcpOutcome::no_solution, 0};
   }
-  return decide_bearings_at_rest(state, asked, open);
+  return decide_at_rest(state, asked, open);
 }
 
-complementarity::ContactSolution ContactModes::decide_in_rounds(const State& state, std::vector<Participant> asked,
-                                                                const model::Modes& open) {
+complementarity::ContactSolution BearingDecision::decide_in_rounds(const State& state, Asked asked,
+                                                                   const model::Modes& open) {
   std::vector<bool> not_held(asked.size(), false);
   std::vector<model::Modes> had;  // found since the last joint let go
   try {
@@ -191,7 +173,7 @@ complementarity::ContactSolution ContactModes::decide_in_rounds(const State& sta
     had.push_back(at_.modes);
     load_bearings(state, at_.modes);
   }
-  bearings_undecided_ = true;
+  undecided_ = true;
   return {LcpOutcome::gave_up, 0};
 }
 
