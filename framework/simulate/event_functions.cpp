@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "simulate/contact/force_noise.hpp"
 #include "simulate/contact/signed_loads.hpp"
 #include "simulate/event_location.hpp"
 
@@ -86,7 +87,7 @@ void EventLocation::choose_sides(const std::map<Watched, EventFunction>& before)
     const bool passed = same != before.end() && same->second.reported;
     function.side = passed ? -same->second.side : now_[k].f < 0 ? -1 : 1;
     now_[k].f *= function.side;
-    function.noise = std::max(modes_.friction_noise(function.contact), vanished_force * function.bound);
+    function.noise = std::max(friction_noise(system_, scale_, function.contact), vanished_force * function.bound);
   }
 }
 
@@ -124,7 +125,7 @@ std::vector<double> EventLocation::little_forces() {
   for (const model::SharedRows& shared : system_.modes().shared) {
     std::vector<model::ContactDirection> all = shared.basis;
     all.insert(all.end(), shared.implied.begin(), shared.implied.end());
-    little.push_back(modes_.force_noise(all));
+    little.push_back(force_noise(system_, scale_, all));
   }
   return little;
 }

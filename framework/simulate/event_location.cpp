@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "linear/dense/eps.hpp"
+#include "simulate/contact/force_noise.hpp"
 #include "simulate/root_bracket.hpp"
 #include "simulate/trial_step.hpp"
 
@@ -111,7 +112,7 @@ void EventLocation::allow_for_friction_at_bounds() {
   for (int k = 0; k < int(functions_.size()); ++k)
     if (functions_[k].kind == Kind::hold && !functions_[k].at_ends &&
         now_[k].f <= std::max(critical_force * functions_[k].bound, functions_[k].little))
-      functions_[k].noise = std::max(modes_.friction_noise(functions_[k].contact), functions_[k].little);
+      functions_[k].noise = std::max(friction_noise(system_, scale_, functions_[k].contact), functions_[k].little);
 }
 
 double EventLocation::longest_step(double swings) const {

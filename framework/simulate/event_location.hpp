@@ -76,7 +76,7 @@ class EventLocation {
   // Found::passes_infinity (not Steps::fixed).
   Found examine(const State& now, double& h, State& next, Steps steps);
   const ContactChanges& changes() const { return changes_; }
-  // [s] Limit of the next step: `swings` (ContactModes::step_limit), or more if every closed contact slides so fast
+  // [s] Limit of the next step: `swings` (longest_step_in_contact), or more if every closed contact slides so fast
   // that a longer step takes at most a quarter of its slip, which then has no zero to pass over.
   double longest_step(double swings) const;
   long long steps_tried() const { return steps_tried_; }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulate/contact/force_noise.hpp"
 #include "simulate/event_location.hpp"
 
 namespace trammel::simulate {
@@ -161,7 +162,7 @@ double EventLocation::resolution_of_force(int k) {
   if (function.kind != Kind::press && function.kind != Kind::hold) return little;
   std::vector<model::ContactDirection> along;
   for (int row = 0; row <= system_.tangents(function.contact); ++row) along.push_back({function.contact, row});
-  return std::max(little, modes_.force_noise(along));
+  return std::max(little, force_noise(system_, scale_, along));
 }
 
 // True if the function is negative within the step and not at its ends.

@@ -92,7 +92,7 @@ Simulator::TouchingAtStart Simulator::touching_at_start() {
 
 void Simulator::resume() {
   measure_joints();
-  in_contact_ = modes_.any_closed();
+  in_contact_ = any_closed(system_);
   if (!last_row_ || now_.t >= settings_.until) return;
   // The end has moved: rows are again written at their multiples. The row at the former end may not have been one.
   last_row_ = false;

@@ -169,7 +169,7 @@ class Simulator {
   Vec error_parts_;   // LastTrial::error_parts
   bool iterated_ = false;
   bool in_contact_ = false;
-  double step_limit_ = std::numeric_limits<double>::infinity();   // [s] ContactModes::step_limit
+  double step_limit_ = std::numeric_limits<double>::infinity();   // [s] longest_step_in_contact
   double hold_until_ = -std::numeric_limits<double>::infinity();  // [s] contact steps are used until then
   long long records_ = 0;                                         // rows written
   bool last_row_ = false;                                         // the row at the end is written

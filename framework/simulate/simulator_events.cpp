@@ -25,7 +25,7 @@ void Simulator::settle(const ContactChanges& changes) {
   const std::size_t before = events_.size();
   modes_.settle(now_, changes, events_);
   ledger_.moving_rows(-modes_.lost_elsewhere());
-  for (const ContactModes::Loss& loss : modes_.losses()) ledger_.impact(loss.contact, loss.energy);
+  for (const ImpactLoss& loss : modes_.losses()) ledger_.impact(loss.contact, loss.energy);
   for (std::size_t i = before; i < events_.size(); ++i) {
     ++statistics_.events;
     if (events_[i].kind == ContactEvent::Kind::close) ++statistics_.touches;
@@ -52,8 +52,9 @@ void Simulator::at_new_modes() {
 }
 
 void Simulator::restart_all_but_integrator() {
-  in_contact_ = modes_.any_closed();
-  step_limit_ = control().controlled() ? modes_.step_limit(now_) : std::numeric_limits<double>::infinity();
+  in_contact_ = any_closed(system_);
+  step_limit_ =
+      control().controlled() ? longest_step_in_contact(system_, now_) : std::numeric_limits<double>::infinity();
   free_control_.interrupted();
   contact_control_.interrupted();
   for (const LevelCorrection& entry : corrections_) {
@@ -76,12 +77,11 @@ void Simulator::guard_against_standstill(double h, double wanted, int contact) {
   const int contacts = int(system_.model().contacts.size());
   if (standing_ <= most_standing + most_standing_of_contact * contacts) return;
   const bool last_is_rigid = contact >= 0 && system_.model().contacts[std::size_t(contact)].restitution;
-  const bool rigid = last_is_rigid || modes_.any_rigid_closed();
+  const bool rigid = last_is_rigid || any_rigid_closed(system_);
   throw RunFailed(fmt::format(
       "{}: {} events in a row without progress in time{}: the contacts' modes contradict each other{}; {}, has one",
       here(), standing_, last_of(contact),
-      rigid ? ", as they do where much friction leaves no motion of rigid contacts" : "",
-      ContactModes::other_law(rigid)));
+      rigid ? ", as they do where much friction leaves no motion of rigid contacts" : "", other_law(rigid)));
 }
 
 void Simulator::guard_against_storm(int contact) {

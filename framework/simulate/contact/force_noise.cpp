@@ -1,5 +1,6 @@
 #include "simulate/contact/force_noise.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trammel::simulate {
@@ -17,6 +18,26 @@ Judged judge_forces(model::AssembledSystem& system, const std::vector<model::Con
     judged.speed[i] = std::sqrt(D(i, i) * judged.scale[i] * of_contact.length());
   }
   return judged;
+}
+
+double friction_noise(model::AssembledSystem& system, const ContactScale& scale, int contact) {
+  std::vector<model::ContactDirection> along;
+  for (int k = 1; k <= system.tangents(contact); ++k) along.push_back({contact, k});
+  Mat jump, delassus;
+  system.impulse_response(along, jump, delassus);
+  const double least = delassus.diagonal().minCoeff();
+  return least > 0 ? scale.of(contact).no_acceleration() / least : 0;
+}
+
+double force_noise(model::AssembledSystem& system, const ContactScale& scale,
+                   const std::vector<model::ContactDirection>& directions) {
+  Mat jump, delassus;
+  system.impulse_response(directions, jump, delassus);
+  const double most = delassus.cwiseAbs().rowwise().sum().maxCoeff();
+  double nothing = 0;
+  for (const model::ContactDirection& d : directions)
+    nothing = std::max(nothing, scale.of(d.contact).no_acceleration());
+  return most > 0 ? nothing / most : 0;
 }
 
 }  // namespace trammel::simulate

@@ -22,4 +22,10 @@ struct Judged {
 Judged judge_forces(model::AssembledSystem& system, const std::vector<model::ContactDirection>& directions,
                     const Vec& F, const ContactScale& scale);
 
+// [N] A smaller friction force counts as none: it accelerates the contact less than `no_acceleration`.
+double friction_noise(model::AssembledSystem& system, const ContactScale& scale, int contact);
+// [N] Forces of this size along all of these directions at once accelerate no contact more than that.
+double force_noise(model::AssembledSystem& system, const ContactScale& scale,
+                   const std::vector<model::ContactDirection>& directions);
+
 }  // namespace trammel::simulate

@@ -13,10 +13,10 @@ constexpr double no_turn = 1e-9;
 
 }  // namespace
 
-// Steps leave small rates in rows, so the slips of the feet of one block do not reach 0 at one instant. A slip that does
-// not follow from these rates is a motion, however slow: in a row of dominoes each moves the one behind it by half as
-// much. In space, contacts whose slip is too slow to have a direction are added too: a body that slides and spins ends
-// both at once.
+// Steps leave small rates in rows, so the slips of the feet of one block do not reach 0 at one instant. A slip that
+// does not follow from these rates is a motion, however slow: in a row of dominoes each moves the one behind it by half
+// as much. In space, contacts whose slip is too slow to have a direction are added too: a body that slides and spins
+// ends both at once.
 bool Drift::stop_with_others(ContactChanges& changes) const {
   if (changes.stopped.empty()) return false;
   const std::vector<double> independent = problem_.independent_slip(problem_.rates(scene_.system));

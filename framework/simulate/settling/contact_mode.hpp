@@ -2,21 +2,22 @@
 // accelerations decide.
 //
 // Rules for set-valued contacts (Restitution) at an event at time t. Other files refer to them by number.
-// ContactModes::settle applies them in this order, by these functions:
+// ContactModes::settle applies them in this order:
 //
-//     impact      1, 9  strike, lock (contact_impact.cpp)    2  capture_chatter, end_rocking (chatter.cpp)
-//     decision    3, 5  Participants    7  Drift    10  BearingDecision    11  WhatFollows    (simulate/decision)
-//     verdicts    3 to 6  Verdicts    12  HeldAtBounds    13  IdleContacts    14  ModesByForces::share_forces_found
-//                 15  SpringBounds    (simulate/verdicts)
-//     no solution  8  strike_without_collision, decide_otherwise (impact_without_collision.cpp)
+//     impact       1  ContactImpacts        2  Chatter, Rocking    9  lock_latches           (here)
+//     decision     3  Participants          5  Participants        7  Drift                  (simulate/decision)
+//                 10  BearingDecision      11  ModeDecision, WhatFollows
+//     verdicts     3 to 6  Verdicts        12  HeldAtBounds       13  IdleContacts           (simulate/verdicts)
+//                 14  ModesByForces        15  SpringBounds
+//     no solution  8  ImpactWithoutCollision                                                 (here)
 //
 //  1. Impact: every contact that touches and closes strikes, together with all that touch or are closed, of bodies that
 //     joints, forces or contacts connect (impact_laws.hpp).
-//  2. Capture (chatter.cpp): an impact slower than capture_speed has e = 0. So has a rebound with e < 1 that the steps
-//     in contact cannot follow: with fixed steps, if its flight 2 u+/|gap acceleration| would last fewer than
-//     chatter_steps of them; with controlled steps, if it would rise less than chatter_steps times the error that a
-//     position may have. The impact is solved again with e = 0 for these contacts. Each repetition lowers the number of
-//     contacts with e > 0, so this ends.
+//  2. Capture (chatter.hpp, rocking.hpp): an impact slower than capture_speed has e = 0. So has a rebound with e < 1
+//     that the steps in contact cannot follow: with fixed steps, if its flight 2 u+/|gap acceleration| would last fewer
+//     than chatter_steps of them; with controlled steps, if it would rise less than chatter_steps times the error that
+//     a position may have. The impact is solved again with e = 0 for these contacts. Each repetition lowers the number
+//     of contacts with e > 0, so this ends.
 //     A contact may open only because others struck, by too little to be followed (a block that rocks to rest, discs of
 //     a pile that knock against each other), whether or not it had an impulse of its own in that impact. Such contacts
 //     keep no rate: their impacts would go on without end in a finite time. A contact that stuck or was open keeps no
@@ -84,18 +85,18 @@
 //     rest beside them (an arm that a box drags along), and a contact of a group of which nothing slides but which has
 //     lost what it could spare (feet of a portal open where its hinges reach their bounds). If mu < mu_0 it has let go
 //     (rule 6), and all modes are decided again.
-// 13. A contact without a force stays closed (idle) only while rows of contacts that carry hold it. Where these come
-//     to depend on each other (a stack that becomes a strut), they do not, and it opens: its force as a spring passes
-//     0 there, which locates that state. They may also cease to hold it where contacts that touched at one point part:
+// 13. A contact without a force stays closed (idle) only while rows of contacts that carry hold it. Where these come to
+//     depend on each other (a stack that becomes a strut), they do not, and it opens: its force as a spring passes 0
+//     there, which locates that state. They may also cease to hold it where contacts that touched at one point part:
 //     then a change of bases is an event. So it is where a row that followed from others no longer does: forces that
 //     hold both would be as many times larger as the contacts' distance is smaller than their bodies. If the problem
 //     has several solutions then, the one is taken in which a contact that has shared opens and parts fastest
-//     (open_freed): a foot below a hinge about which its body turns parts, and presses on only with friction that ends
-//     the turn. Which contacts are idle affects the motion if others slide, so the forces in the modes decided are
-//     computed: if the contacts move otherwise than found, only those without any force count as idle; if forces pull
-//     or leave a cone, contacts whose force may be an error (up to 1e-6 of the largest of their island) count as idle,
-//     too, or else none does. A contact with such a force that pulls by its row in these modes opens, if its gap then
-//     accelerates apart (open_pulling_ones).
+//     (ModeDecision::open_freed): a foot below a hinge about which its body turns parts, and presses on only with
+//     friction that ends the turn. Which contacts are idle affects the motion if others slide, so the forces in the
+//     modes decided are computed: if the contacts move otherwise than found, only those without any force count as
+//     idle; if forces pull or leave a cone, contacts whose force may be an error (up to 1e-6 of the largest of their
+//     island) count as idle, too, or else none does. A contact with such a force that pulls by its row in these modes
+//     opens, if its gap then accelerates apart (IdleContacts::open_pulling_ones).
 // 14. The forces in the modes decided may still pull or leave a cone, although the problem has a solution: springs'
 //     shares are not admissible, and others are another motion (rows of blocks between walls). Where no cone is round
 //     (in the plane, or where all slide), forces are then taken whose modes leave no share free: as few parts along
@@ -119,19 +120,15 @@
 // force acts.
 #pragma once
 
-#include <map>
 #include <vector>
 
-#include <trammel/integrator.hpp>
-
-#include "simulate/contact/contact_changes.hpp"
-#include "simulate/contact/contact_problem.hpp"
-#include "simulate/contact/contact_scene.hpp"
 #include "simulate/decision/mode_decision.hpp"
-#include "simulate/impact/impact_laws.hpp"
-#include "simulate/impact/impact_warnings.hpp"
 #include "simulate/results/contact_event.hpp"
-#include "simulate/verdicts/contacts_at_event.hpp"
+#include "simulate/settling/carried_forces.hpp"
+#include "simulate/settling/contact_failure.hpp"
+#include "simulate/settling/contact_impacts.hpp"
+#include "simulate/settling/impact_without_collision.hpp"
+#include "simulate/settling/present_contacts.hpp"
 
 namespace trammel::simulate {
 
@@ -142,123 +139,40 @@ class ContactModes {
 
   // Applies the changes at `state`: v jumps, modes and sizes change, a and lambda are solved anew. Appends the events.
   void settle(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
-  // Modes stay as they are, and so do all forces; contacts that share rows take the best conditioned basis. False:
-  // modes are to be decided (rule 13), since the others no longer hold an idle contact, or since a row has ceased to
-  // follow from others: its own force would hold what the contacts, which share a point no more, accelerate apart.
-  [[nodiscard]] bool renew_bases(State& state);
-  // Energy lost in the last impacts [J]: through contacts, also closed ones; and elsewhere, through moving rows.
-  struct Loss {
-    int contact;
-    double energy;
-  };
-  const std::vector<Loss>& losses() const { return losses_; }
-  double lost_elsewhere() const { return lost_elsewhere_; }
-  ImpactWarnings& impact_warnings() { return impact_warnings_; }
-  const ImpactWarnings& impact_warnings() const { return impact_warnings_; }
 
+  // Of the last event: energy lost in its impacts [J].
+  const std::vector<ImpactLoss>& losses() const { return impacts_.losses(); }
+  double lost_elsewhere() const { return impacts_.lost_elsewhere(); }
   double least_acceleration(int contact) const {  // [m/s^2] a smaller one counts as no acceleration
     return decision_.instant().least_acceleration(contact);
   }
-  // How near the forces of sliding contacts are to having no solution: the least pivot of their equations relative to
-  // that without friction; 0 at Painleve's critical state, 1 far from it.
-  double distance_from_critical(const State& state);
-  bool any_closed() const;  // bearings of joints, which are always closed, do not count
-  bool any_rigid_closed() const;
-  // The law to try where contacts have no forces or no motion.
-  static const char* other_law(bool rigid) {
-    return rigid ? "a compliant law, such as continuous_force" : "smooth friction, such as regularized_coulomb";
-  }
+  // Of all events.
+  ImpactWarnings& impact_warnings() { return impacts_.warnings(); }
+  const ImpactWarnings& impact_warnings() const { return impacts_.warnings(); }
 
-  // [s] Longest controlled step that cannot pass over a double zero of a slip velocity: 0.45 of the shortest period in
-  // which a closed contact with set-valued friction swings back after a blow. Below half of the period a swing turns at
-  // most once within a step, so two zeros in it show in the slopes at its ends. (EventLocation::dips finds the zeros of
-  // c + cos in every phase up to 0.45, and misses the shallowest from 0.5 on.)
-  double step_limit(const State& state);
-  // [N] A smaller friction force counts as none: it accelerates the contact less than `no_acceleration`.
-  double friction_noise(int contact);
-  // [N] Forces of this size along all of these directions at once accelerate no contact more than that.
-  double force_noise(const std::vector<model::ContactDirection>& directions);
+  // Between events (present_contacts.hpp).
+  [[nodiscard]] bool renew_bases(State& state) { return simulate::renew_bases(scene_, state); }
+  double distance_from_critical(const State& state) { return simulate::distance_from_critical(scene_, state); }
 
  private:
-  using Friction = model::ContactMode::Friction;
-  using Kind = ContactEvent::Kind;
-
   void begin(const State& state);
-  void prepare_present(const State& state);
+  void toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events);
+  bool strike(State& state, const ContactChanges& changes);
+  bool any_friction() const;
   bool any_approaches() const;
   void take_approach_speeds(const ContactChanges& changes);
-  bool carries_forces(const ContactChanges& changes) const;
-  [[nodiscard]] complementarity::ContactSolution strike_without_collision(State& state, const ContactChanges& changes,
-                                                                          bool jumped,
-                                                                          std::vector<ContactEvent>& events);
-  [[nodiscard]] complementarity::ContactSolution end_slowest_slips(State& state, const ContactChanges& changes,
-                                                                   bool jumped);
-  bool slides(int contact, bool jumped);
-  [[nodiscard]] complementarity::ContactSolution strike_raised(State& state, const ContactChanges& changes,
-                                                               double raised);
-  void find_approaches(double slip);
-  void append_impacts(double t, bool without_collision, std::vector<ContactEvent>& events) const;
-  void toggle(const State& state, const std::vector<int>& contacts, std::vector<ContactEvent>& events);
-  void find_touching(const ContactChanges& changes);
-  void find_bearings();
-  [[nodiscard]] complementarity::ContactSolution strike(State& state, const ContactChanges& changes);
-  std::vector<TouchingContact> touching_and_bearings() const;
-  [[nodiscard]] complementarity::ContactSolution solve_impacts(const State& state, std::vector<TouchingContact>& all);
-  [[nodiscard]] complementarity::ContactSolution decide_at_once(State& state, const ContactChanges& changes,
-                                                                bool jumped);
-  [[nodiscard]] complementarity::ContactSolution decide_otherwise(const State& state, const ContactChanges& changes);
-  // By index of the touching contacts: `falls`, the separation after the impact is too short to follow; `stops`, the
-  // slip.
-  struct Brief {
-    std::vector<bool> falls, stops;
-    std::size_t first() const;  // that falls or stops; their number if there is none
-  };
-  [[nodiscard]] complementarity::ContactSolution strike_with_captures(State& state, const ContactChanges& changes,
-                                                                      Brief& brief);
-  Brief too_brief(const State& state, const ContactChanges& changes);
-  void judge_brief(const State& state, std::size_t at_rest_now, Brief& brief);
-  bool separates(const TouchingContact& c) const;
-  bool begins_to_slip(const TouchingContact& c) const;
-  const TouchingContact* beginning_to_slip(const Participant& p) const;
-  bool stops_at_once(std::size_t participant) const;
-  bool let_fast_slips_go();
-  std::map<std::size_t, double> fastest_gap_accelerations();
-  bool capture_chatter(const std::vector<bool>& falls);
-  double end_rocking(State& state, const Brief& brief);
-  double end_rocking_of(std::size_t island, State& state, Brief brief);
-  double end_rates_of(std::size_t island, State& state, const Brief& brief);
-  bool none_made_to_approach(std::size_t island, const std::vector<TouchingContact>& after_impact) const;
-  bool leave_fastest(std::size_t island, Brief& brief) const;
-  double take_rates(State& state, const std::vector<bool>& rests, const std::vector<bool>& stops);
-  bool cannot_follow(int contact, double separation, double acceleration) const;
-  void lock(State& state, const ContactChanges& changes, std::vector<ContactEvent>& events);
-  void finish(State& state, bool carry);
-  void append_normal_event(const State& state, const TouchingContact& c, std::vector<ContactEvent>& events);
-  void append_friction_events(const State& state, std::vector<ContactEvent>& events);
-  double rest_speed(const std::vector<TouchingContact>& contacts) const;  // [m/s] the largest of their thresholds
-  void keep_forces(const State& state);
-  void carry_forces(Vec& lambda) const;
-  // contact_failure.cpp
-  [[noreturn]] void fail_without_balance(double t, const complementarity::ContactSolution& solution) const;
-  [[noreturn]] void fail_without_impact(double t, const complementarity::ContactSolution& solution) const;
-  [[noreturn]] void fail_without_solution(const char* what, double t, const complementarity::ContactSolution& solution,
-                                          const std::vector<Participant>& who) const;
-  bool blocked(const std::vector<Participant>& who) const;
+  void take_modes(State& state, const ContactChanges& changes);
+  Unsolved unsolved(double t, const complementarity::ContactSolution& solution) const {
+    return {t, solution, decision_.instant().bearings_undecided()};
+  }
 
   ContactScene scene_;
   model::AssembledSystem& system_;
   ContactsAtEvent at_;
+  ContactImpacts impacts_{scene_, at_};
   ModeDecision decision_{scene_, at_};
-  ImpactLaws impact_;
-  ImpactWarnings impact_warnings_;
-  Participants participants_{scene_, at_};
-  ContactProblem problem_;
-  std::vector<int> candidates_;
-  std::vector<Eigen::Vector3d> forces_before_;  // by contact and direction [N], where some are carried over
-  std::vector<Loss> losses_;
-  double lost_elsewhere_ = 0;
-  bool cut_short_ = false;  // some of the last impacts had not ended (ImpactLaws::cut_short)
-  Vec dv_, v_before_, a_, lambda_, lambda_before_;
+  ImpactWithoutCollision without_collision_{scene_, at_, impacts_, decision_};
+  CarriedForces carried_{scene_};
 };
 
 }  // namespace trammel::simulate

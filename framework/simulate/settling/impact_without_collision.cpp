@@ -1,9 +1,10 @@
-// Rule 8 of contact_mode.hpp: impacts without collision, which end the slips of sliding contacts that have no finite
-// forces (Painleve).
-#include <algorithm>
-#include <map>
+#include "simulate/settling/impact_without_collision.hpp"
 
-#include "simulate/settling/contact_mode.hpp"
+#include <algorithm>
+
+#include "simulate/settling/contact_events.hpp"
+#include "simulate/settling/contact_failure.hpp"
+#include "simulate/settling/latches.hpp"
 
 namespace trammel::simulate {
 
@@ -54,25 +55,26 @@ std::vector<double> sizes_of(std::vector<double> slips) {
 // An impact may have happened before at the same instant. Where one leaves contacts without finite forces still,
 // another follows: each ends a slip. The end of motions that are too short to follow (rule 2) may bring a slip back, so
 // later ones keep such motions.
-ContactSolution ContactModes::strike_without_collision(State& state, const ContactChanges& changes, bool jumped,
-                                                       std::vector<ContactEvent>& events) {
+ContactSolution ImpactWithoutCollision::strike(State& state, const ContactChanges& changes, bool jumped,
+                                               std::vector<ContactEvent>& events) {
   bool without_collision = false;
   for (std::size_t left = at_.touching.size();; --left) {
-    system_.set_modes(at_.before);
-    system_.move_to(state.t, state.q, state.v);
+    scene_.system.set_modes(at_.before);
+    scene_.system.move_to(state.t, state.q, state.v);
     if (jumped || without_collision) {
-      append_impacts(state.t, without_collision, events);
-      find_touching({});
+      append_impacts(scene_, at_, state.t, without_collision, events);
+      impacts_.find_touching({});
     }
     for (TouchingContact& c : at_.touching) c.keeps_rates = without_collision;
     const ContactSolution impact = end_slowest_slips(state, changes, jumped || without_collision);
     if (impact.outcome != LcpOutcome::solved) {
       const ContactSolution others =
           changes.locked ? decide_otherwise(state, changes) : decide_at_once(state, changes, jumped);
-      if (others.outcome != LcpOutcome::solved) fail_without_impact(state.t, impact);
+      if (others.outcome != LcpOutcome::solved)
+        fail_without_impact(scene_, {state.t, impact, decision_.instant().bearings_undecided()}, at_);
       return others;
     }
-    lock(state, changes, events);
+    lock_latches(scene_, state, changes, at_, events);
     const ContactSolution solution = decision_.instant().decide(state, changes, true);
     if (solution.outcome != LcpOutcome::no_solution || left == 0) return solution;
     without_collision = true;
@@ -81,11 +83,11 @@ ContactSolution ContactModes::strike_without_collision(State& state, const Conta
 
 // The smallest impulses that leave finite forces end the slowest slips; faster ones go on as they are. If there is no
 // such impact, faster slips may end in it, too.
-ContactSolution ContactModes::end_slowest_slips(State& state, const ContactChanges& changes, bool jumped) {
+ContactSolution ImpactWithoutCollision::end_slowest_slips(State& state, const ContactChanges& changes, bool jumped) {
   std::vector<double> slips;
   for (TouchingContact& c : at_.touching) {
     c.slides = slides(c.contact, jumped);
-    if (c.slides) slips.push_back(system_.slip(c.contact).norm());
+    if (c.slides) slips.push_back(scene_.system.slip(c.contact).norm());
   }
   if (slips.empty()) slips.push_back(0);  // joints slide alone
   ContactSolution impact;
@@ -101,25 +103,25 @@ ContactSolution ContactModes::end_slowest_slips(State& state, const ContactChang
 }
 
 // Before an impact, by its mode, since its slip may just pass 0.
-bool ContactModes::slides(int contact, bool jumped) {
-  if (!system_.model().contacts[std::size_t(contact)].friction) return false;
+bool ImpactWithoutCollision::slides(int contact, bool jumped) const {
+  if (!scene_.system.model().contacts[std::size_t(contact)].friction) return false;
   const model::ContactMode& mode = at_.before.contacts[std::size_t(contact)];
-  const bool in_mode = !jumped && mode.closed && mode.friction == Friction::slide;
-  return in_mode || system_.slip(contact).norm() > scene_.scale.of(contact).rest_speed();
+  const bool in_mode = !jumped && mode.closed && mode.friction == model::ContactMode::Friction::slide;
+  return in_mode || scene_.system.slip(contact).norm() > scene_.scale.of(contact).rest_speed();
 }
 
 // With coefficients of friction that are larger by the part `raised`.
-ContactSolution ContactModes::strike_raised(State& state, const ContactChanges& changes, double raised) {
+ContactSolution ImpactWithoutCollision::strike_raised(State& state, const ContactChanges& changes, double raised) {
   for (TouchingContact& c : at_.touching) c.without_collision = true, c.raised = raised;
   for (TouchingContact& c : at_.bearings) c.without_collision = true, c.raised = raised;
-  return strike(state, changes);
+  return impacts_.strike(state, changes);
 }
 
 // Contacts approach by a small part of their slips. Those that slip faster than `slip` go on sliding as they do.
-void ContactModes::find_approaches(double slip) {
+void ImpactWithoutCollision::find_approaches(double slip) {
   for (TouchingContact& c : at_.touching) {
-    if (!system_.model().contacts[std::size_t(c.contact)].friction) continue;
-    const double own = system_.slip(c.contact).norm();
+    if (!scene_.system.model().contacts[std::size_t(c.contact)].friction) continue;
+    const double own = scene_.system.slip(c.contact).norm();
     c.slides_on = own > slip;
     c.approach = c.slides_on ? 0 : -vanishing_approach * own;
   }
@@ -127,7 +129,7 @@ void ContactModes::find_approaches(double slip) {
 
 // Forces exist at this instant, and only those a moment later do not (rule 11). A contact whose force fell through 0
 // may be needed.
-ContactSolution ContactModes::decide_at_once(State& state, const ContactChanges& changes, bool jumped) {
+ContactSolution ImpactWithoutCollision::decide_at_once(State& state, const ContactChanges& changes, bool jumped) {
   ContactChanges others = changes;
   others.released.clear();
   return decision_.instant().decide(state, others, jumped);
@@ -135,7 +137,7 @@ ContactSolution ContactModes::decide_at_once(State& state, const ContactChanges&
 
 // Decides as for the state beyond the critical one, and accepts only other modes than the present ones, whose forces
 // grow beyond all bounds.
-ContactSolution ContactModes::decide_otherwise(const State& state, const ContactChanges& changes) {
+ContactSolution ImpactWithoutCollision::decide_otherwise(const State& state, const ContactChanges& changes) {
   for (TouchingContact& c : at_.touching) c.without_collision = false;
   decision_.instant().gather({state, changes, false});
   const auto solution = decision_.what_follows().decide(

@@ -1,0 +1,76 @@
+#include "simulate/settling/present_contacts.hpp"
+
+#include <limits>
+#include <numbers>
+
+#include "simulate/decision/participants.hpp"
+#include "simulate/verdicts/groups.hpp"
+
+namespace trammel::simulate {
+namespace {
+
+// Of the shortest period of swings: the longest step.
+constexpr double part_of_period = 0.45;
+
+// The problem of the closed contacts in their present modes.
+ContactProblem present_problem(const ContactScene& scene, const State& state) {
+  scene.system.move_to(state.t, state.q, state.v);
+  ContactsAtEvent at;
+  at.before = at.modes = scene.system.modes();
+  at.shared_before.assign(at.modes.contacts.size(), false);
+  std::vector<int> candidates;
+  for (int i = 0; i < int(at.modes.contacts.size()); ++i)
+    if (at.modes.contacts[i].closed && scene.contact(i).restitution && !scene.locks(i)) candidates.push_back(i);
+  ContactProblem problem;
+  const ContactChanges none;
+  problem.who = Participants(scene, at).gather(candidates, {state, none, false});
+  for (Participant& p : problem.who) p.idle = scene.system.sharing(p.contact).idle;
+  problem.prepare(scene.system);
+  return problem;
+}
+
+}  // namespace
+
+bool any_closed(const model::AssembledSystem& system) {
+  for (std::size_t i = 0; i < system.modes().contacts.size(); ++i)
+    if (system.modes().contacts[i].closed && !system.model().contacts[i].joint) return true;
+  return false;
+}
+
+bool any_rigid_closed(const model::AssembledSystem& system) {
+  for (std::size_t i = 0; i < system.modes().contacts.size(); ++i)
+    if (system.modes().contacts[i].closed && system.model().contacts[i].restitution) return true;
+  return false;
+}
+
+double distance_from_critical(const ContactScene& scene, const State& state) {
+  return present_problem(scene, state).distance_from_critical(scene.system.modes());
+}
+
+bool renew_bases(const ContactScene& scene, State& state) {
+  const ContactProblem problem = present_problem(scene, state);
+  model::Modes modes = scene.system.modes();
+  const std::size_t implied_before = implied_rows(modes);
+  const std::vector<bool> held = problem.held_by_others(modes);
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (problem.who[i].idle && !held[i]) return false;
+  modes.shared = problem.shared_rows(modes);
+  if (implied_rows(modes) < implied_before) return false;
+  scene.system.set_modes(modes);
+  scene.system.move_to(state.t, state.q, state.v);
+  scene.system.accelerate({}, state.a, state.lambda);
+  return true;
+}
+
+double longest_step_in_contact(model::AssembledSystem& system, const State& state) {
+  std::vector<model::ContactDirection> directions;
+  const auto& contacts = system.modes().contacts;
+  for (int i = 0; i < int(contacts.size()); ++i)
+    if (contacts[i].closed && contacts[i].friction != model::ContactMode::Friction::none)
+      for (int row = 0; row <= system.tangents(i); ++row) directions.push_back({i, row});
+  if (directions.empty()) return std::numeric_limits<double>::infinity();
+  system.move_to(state.t, state.q, state.v);
+  return part_of_period * 2 * std::numbers::pi / system.highest_frequency(directions);
+}
+
+}  // namespace trammel::simulate
