@@ -67,14 +67,17 @@ void Participants::add_friction(const Occasion& now, Participant& p) const {
   const model::ContactEntry& entry = scene_.system.model().contacts[p.contact];
   if (!entry.friction) return;
   const Tangential slip = scene_.system.slip(p.contact);
+  if (!entry.smooth) return add_set_valued_friction(now, *entry.coulomb, slip, p);
   const double speed = slip.norm();
-  if (entry.smooth) {
-    p.tangent = Tangent::sliding;
-    if (speed > 0) p.ratio = -entry.smooth->ratio(speed) * direction_of(slip);
-    return;
-  }
-  p.mu_0 = entry.coulomb->static_coefficient();
-  p.mu = entry.coulomb->kinetic_coefficient(speed);
+  p.tangent = Tangent::sliding;
+  if (speed > 0) p.ratio = -entry.smooth->ratio(speed) * direction_of(slip);
+}
+
+void Participants::add_set_valued_friction(const Occasion& now, const SetValuedFriction& law, const Tangential& slip,
+                                           Participant& p) const {
+  const double speed = slip.norm();
+  p.mu_0 = law.static_coefficient();
+  p.mu = law.kinetic_coefficient(speed);
   if (p.mu_0 == 0) return;
   const model::ContactMode& before = at_.before.contacts[p.contact];
   const bool was_closed = before.closed && before.friction != Friction::none;
@@ -96,7 +99,7 @@ void Participants::add_friction(const Occasion& now, Participant& p) const {
   p.tangent = rests ? Tangent::resting : Tangent::sliding;
   if (!rests) p.ratio = -p.mu * unit;
   p.let_go = p.yielded = rests && !at_.shared_before[p.contact] && contains(now.changes.yielded, p.contact) &&
-                         entry.coulomb->decide() == SetValuedFriction::Decide::at_events;
+                         law.decide() == SetValuedFriction::Decide::at_events;
 }
 
 std::vector<Participant> Participants::gather(const std::vector<int>& candidates, const Occasion& now) {

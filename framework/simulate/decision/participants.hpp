@@ -34,6 +34,8 @@ class Participants {
   double least_acceleration(int contact) const;  // [m/s^2] a smaller one counts as no acceleration
 
  private:
+  void add_set_valued_friction(const Occasion& now, const SetValuedFriction& law, const Tangential& slip,
+                               Participant& p) const;
   double error_of_impact(int contact) const;
   double unresolved(int contact, const State& state) const;
   void gather_compliant(int contact, const Occasion& now, std::vector<Participant>& who);

@@ -1,12 +1,10 @@
 // A box slides along a wall that it touches without a force: the wall must not matter, in whatever order its contacts
-// are written. And the modes of contacts that are asked anew beside others.
+// are written.
 #include <cstddef>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "simulate/verdicts/groups.hpp"
 
 #include "support/run_scene.hpp"
 
@@ -72,21 +70,6 @@ TEST(BoxThatTouchesAWall, TipsOverOnTheFloorAsWithoutTheWall) {
 // Its feet on the wall are idle, and their forces as springs are round-off.
 TEST(BoxThatTouchesAWall, TipsOverAnEdgeThatSticksInFewSteps) {
   expect_no_effect_of_wall({0.5, 0.3, 0.3, 2});
-}
-
-// A contact that was released takes no part, so its mode is not asked again; but it may press a moment later, where a
-// group then names its row.
-TEST(ContactsAskedAnew, TakeThoseThatShareTheirRowsWithThem) {
-  model::Modes decided, later;
-  decided.contacts.resize(4), later.contacts.resize(4);
-  for (const int i : {0, 2, 3}) decided.contacts[std::size_t(i)].closed = true;
-  for (model::ContactMode& mode : later.contacts) mode.closed = true;
-  later.contacts[3].approach_speed = 1;
-  later.shared.push_back({.basis = {{0, 0}, {1, 0}}, .implied = {{2, 0}}, .K = {}, .share = {}, .sliding = {}});
-  simulate::keep_others(decided, {true, false, false, false}, later);
-  ASSERT_EQ(later.shared.size(), 1u);
-  for (int i = 0; i < 3; ++i) EXPECT_TRUE(later.contacts[std::size_t(i)].closed) << i;
-  EXPECT_EQ(later.contacts[3], decided.contacts[3]);
 }
 
 }  // namespace

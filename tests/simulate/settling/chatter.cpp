@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "block.hpp"
+#include "../contact/block.hpp"
 #include "support/run_scene.hpp"
 
 namespace trammel::test {
