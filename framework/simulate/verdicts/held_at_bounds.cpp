@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "simulate/verdicts/errors_of_solutions.hpp"
 #include "simulate/verdicts/groups.hpp"
 
 namespace trammel::simulate {

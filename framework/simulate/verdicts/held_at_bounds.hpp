@@ -7,9 +7,6 @@
 
 namespace trammel::simulate {
 
-// Of the largest load of a group: a spare load may be negative by this round-off.
-inline constexpr double round_off_of_loads = 1e-9;
-
 class HeldAtBounds {
  public:
   HeldAtBounds(const ContactScene& scene, ContactsAtEvent& at, ContactProblem& problem, ForcesInModes& forces)

@@ -5,7 +5,6 @@
 
 #include "simulate/verdicts/errors_of_solutions.hpp"
 #include "simulate/verdicts/groups.hpp"
-#include "simulate/verdicts/held_at_bounds.hpp"
 
 namespace trammel::simulate {
 namespace {
