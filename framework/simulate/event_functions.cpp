@@ -103,14 +103,17 @@ void EventLocation::allow_for_critical_friction() {
 }
 
 // The force of an idle contact that nothing loads (blocks that stand side by side) is the round-off of the others', and
-// so is that of a sliding contact which the least forces of its group leave without a load.
+// so is that of a sliding contact which the least forces of its group leave without a load. Where nothing presses (discs
+// that touch in free fall), so is every force.
 void EventLocation::allow_for_round_off(const State& now) {
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     EventFunction& function = functions_[k];
-    if (!is_shared_force(function)) continue;
-    const double largest = system_.largest_load(function.group, own_force_ ? now.lambda : lambda_);
-    function.little = std::max(function.little, vanished_force * largest);
-    if (function.kind == Kind::idle && now_[k].f <= function.little) function.noise = function.little;
+    if (is_shared_force(function)) {
+      const double largest = system_.largest_load(function.group, own_force_ ? now.lambda : lambda_);
+      function.little = std::max(function.little, vanished_force * largest);
+    }
+    const bool has_own_force = function.kind == Kind::idle || (function.kind == Kind::press && function.group < 0);
+    if (has_own_force && now_[k].f <= function.little) function.noise = function.little;
   }
 }
 

@@ -89,6 +89,7 @@ void EventLocation::set_thresholds() {
   const std::vector<double> little = little_forces();
   for (EventFunction& each : functions_) {
     if (each.kind == Kind::unload || is_shared_force(each)) each.little = little[std::size_t(each.group)];
+    if (each.kind == Kind::press && each.group < 0) each.little = force_noise(system_, scale_, {{each.contact, 0}});
     if (each.kind == Kind::follow) each.little = held_acceleration * modes_.least_acceleration(each.contact);
     if (each.kind == Kind::span) each.little = std::max(most_off_span, 2 * system_.off_span(each.group));
     if (each.kind == Kind::hold) each.little = little_friction(each.contact);
