@@ -272,5 +272,63 @@ TEST(SpringsAtRest, HoldFeetBesideOneThatSlidesByTheLoadsThatSpringsHave) {
     EXPECT_LT(spare_load_as_springs(feet, E, push, Vec{{30, 0, 1 + held}}), 0) << held;
 }
 
+// Two corners of a block, each between two contacts whose normals differ by the angle by which the blocks have turned.
+// Friction is ample, so the load decides what the least loaded contact can spare.
+TEST(SpringsAtRest, SpareWhatTheLeastLoadedOfNearlyCoincidentContactsHas) {
+  constexpr double angle = 4.7e-8;
+  std::vector<SharingContact> corners;
+  Mat E = Mat::Zero(3, 8);
+  for (int i = 0; i < 4; ++i) {
+    E.col(2 * i) = i % 2 == 0 ? Vec{{-angle * (i == 0), 0, 1}} : Vec{{1, 0, angle * (i == 1)}};
+    E(1, 2 * i + 1) = 1;
+    corners.push_back({2 * i, {2 * i + 1}, 3, 0});
+  }
+  const Mat push = E(Eigen::all, {0, 2, 4, 6});
+  std::mt19937 random(7);
+  for (int i = 0; i < 400; ++i) {
+    const Vec load{{between(random, 1, 5), between(random, -5, 5), between(random, 20, 30)}};
+    const Vec N = push.completeOrthogonalDecomposition().solve(Vec{{load[0], 0, load[2]}});
+    EXPECT_NEAR(spare_load_as_springs(corners, E, load), N.minCoeff(), 1e-6) << i;
+  }
+}
+
+// Feet that rest beside feet that slide.
+struct FeetBesideSlidingOnes {
+  std::vector<SharingContact> contacts;
+  Mat E, push;
+  FeetBesideSlidingOnes(std::mt19937& random, int rest, int slide)
+      : E(Mat::Zero(3, 2 * rest + slide)), push(2, rest + slide) {  // rows of E: force across, moment, force along
+    for (int k = 0; k < rest + slide; ++k) {
+      const bool rests = k < rest;
+      const int normal = rests ? 2 * k : rest + k;
+      push.col(k) << 1, between(random, -1, 1);
+      E.col(normal) << push.col(k), rests ? 0 : between(random, -0.5, 0.5);
+      if (rests) E(2, normal + 1) = 1;
+      contacts.push_back(rests ? SharingContact{normal, {normal + 1}, between(random, 0.05, 1), 0}
+                               : SharingContact{.normal = normal, .tangents = {}, .carries = false});
+    }
+  }
+};
+
+Vec load_of_feet(std::mt19937& random) {
+  return Vec{{10, between(random, -4, 4), between(random, -8, 8)}};
+}
+
+// Rows of the normals that are round-off say nothing about what springs press.
+TEST(SpringsAtRest, SpareAsMuchWhateverTheRoundOffOfTheRows) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 200; ++i) {
+    const FeetBesideSlidingOnes feet(random, 2 + i % 2, 2 + i % 3);
+    const Vec load = load_of_feet(random);
+    Mat noisy = Mat::Zero(4, feet.push.cols());
+    noisy.topRows(2) = feet.push;
+    for (Eigen::Index k = 0; k < noisy.cols(); ++k)
+      noisy.col(k).tail(2) << between(random, -1e-13, 1e-13), between(random, -1e-13, 1e-13);
+    EXPECT_NEAR(spare_load_as_springs(feet.contacts, feet.E, noisy, load),
+                spare_load_as_springs(feet.contacts, feet.E, feet.push, load), 1e-6)
+        << i;
+  }
+}
+
 }  // namespace
 }  // namespace trammel::complementarity

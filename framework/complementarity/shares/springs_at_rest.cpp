@@ -28,8 +28,10 @@ constexpr double round_off_of_resultants = 1e-14;
 // press others if a slack is more negative.
 constexpr double not_carried = 1e-9;
 constexpr double no_part_in_self_stress = 1e-12;
-// Of the largest force: sets that can spare as much are as good as any.
-constexpr double much_to_spare = 0.25;
+// Of the largest row: what a row adds to those it follows from. It could be carried by forces without bounds only.
+constexpr double round_off_of_rows = 1e-11;
+// Of the largest force: sets that can spare as much are as good as any, those that lack as much have no forces.
+constexpr double much_to_spare = 0.25, least_spare = -1e6;
 
 // Whether the springs of a contact press. Of one that may do either, force and slack may both be positive.
 enum class Spring { presses, parts, either };
@@ -45,9 +47,15 @@ struct Pressing {
   bool carries = true;  // false: these equations have no solution, whatever the signs of the forces
 };
 
+Eigen::ColPivHouseholderQR<Mat> decomposed(const Mat& rows) {
+  Eigen::ColPivHouseholderQR<Mat> qr(rows);
+  qr.setThreshold(round_off_of_rows);
+  return qr;
+}
+
 // Only independent rows are kept.
 void make_independent(Pressing& p) {
-  const Eigen::ColPivHouseholderQR<Mat> qr(p.E);
+  const Eigen::ColPivHouseholderQR<Mat> qr = decomposed(p.E);
   const Mat Q = first_columns_of_q(qr, qr.rank());
   const Vec all = p.lambda;
   p.E = Q.transpose() * p.E;
@@ -64,9 +72,8 @@ std::vector<Index> normals_of(const std::vector<SharingContact>& contacts) {
 
 // Columns: the normal forces that are in balance with each other.
 Mat self_stress(const Mat& E_n) {
-  const Mat transposed = E_n.transpose();
-  const Eigen::ColPivHouseholderQR<Mat> qr(transposed);
-  return last_columns_of_q(qr, transposed.rows() - qr.rank());
+  const Eigen::ColPivHouseholderQR<Mat> qr = decomposed(E_n.transpose());
+  return last_columns_of_q(qr, E_n.cols() - qr.rank());
 }
 
 // Springs between bodies that yield a little, N = max(0, E_n^T y) with E_n N = r - compliance y, found by pivoting;
@@ -309,7 +316,7 @@ class Search {
       for (std::size_t i = 0; i < set.size(); ++i) {
         Set other = set;
         other[i] = other[i] == Spring::parts ? Spring::presses : Spring::parts;
-        if (!seen(other)) judge(other);
+        if (!seen(other)) keep_if_better(judged(other, std::max(best_.spare, least_spare * size_)));
       }
   }
 
@@ -324,25 +331,34 @@ class Search {
   }
 
   // With the least forces of the set, or those that leave their cones least: forces that spare most may be of any size
-  // (a strut that locks).
+  // (a strut that locks). A set that spares less than `wanted` is not consistent.
   Found judged(const Set& press, double wanted = -std::numeric_limits<double>::infinity()) {
     seen_.push_back(press);
     Found found;
+    found.consistent = false;
     found.pressing = only(press, contacts_, E_, Z_, lambda_);
     const Pressing& p = found.pressing;
+    if (!p.carries && !std::isinf(wanted)) return found;
     Vec own;
     found.spare = std::min(much_to_spare * size_, spare_load(p.contacts, p.E, p.lambda, &own, wanted));
-    found.consistent = p.carries && springs_press_so(p, own, found.spare);
-    if (found.spare >= 0) admissible_forces(p.contacts, p.E, p.lambda, own);
+    if (found.spare < wanted) return found;
+    found.consistent = springs_press_so(p, found.spare, own) && p.carries;
     found.F = with_idle(p, own, E_.cols());
     return found;
   }
 
-  // The slacks of the others are not negative, and forces leave their cones by no more than the spare load, which may
-  // exist for no forces of this set.
-  static bool springs_press_so(const Pressing& pressing, const Vec& own, double spare) {
+  // Fills in the least ones.
+  static bool have_forces(const Pressing& p, Vec& own) {
+    return admissible_forces(p.contacts, p.E, p.lambda, own) <= not_carried * p.lambda.norm();
+  }
+
+  // Forces of the set exist, with slacks that are not negative: inside the cones, which the least ones show, or beyond
+  // them by no more than the spare load lacks.
+  static bool springs_press_so(const Pressing& p, double spare, Vec& own) {
+    if (spare >= 0) return have_forces(p, own);
     const double error = not_carried * own.lpNorm<Eigen::Infinity>();
-    return std::all_of(pressing.contacts.begin(), pressing.contacts.end(), [&](const SharingContact& c) {
+    if (!((p.E * own - p.lambda).norm() <= not_carried * p.lambda.norm())) return false;
+    return std::all_of(p.contacts.begin(), p.contacts.end(), [&](const SharingContact& c) {
       const double N = (c.normal >= 0 ? own[c.normal] : c.given) - (c.carries ? spare : 0);
       return N >= -error && friction(c, own) <= c.coefficient * N + error;
     });
