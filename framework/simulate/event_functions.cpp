@@ -91,20 +91,9 @@ void EventLocation::choose_sides(const std::map<Watched, EventFunction>& before)
   }
 }
 
-// Friction that holds exactly at its bound (equal blocks that brake as one) leaves no spare load, up to round-off. It
-// must not hide a loss of load of the other contacts.
-void EventLocation::allow_for_critical_friction() {
-  for (std::size_t k = 0; k < functions_.size(); ++k) {
-    EventFunction& function = functions_[k];
-    if (function.kind != Kind::unload) continue;
-    const double more = std::max(0.0, critical_force * function.bound - function.little);
-    function.little += more, now_[k].f += more;
-  }
-}
-
 // The force of an idle contact that nothing loads (blocks that stand side by side) is the round-off of the others', and
-// so is that of a sliding contact which the least forces of its group leave without a load. Where nothing presses (discs
-// that touch in free fall), so is every force.
+// so is that of a sliding contact which the least forces of its group leave without a load. Where nothing presses
+// (discs that touch in free fall), so is every force.
 void EventLocation::allow_for_round_off(const State& now) {
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     EventFunction& function = functions_[k];
@@ -182,9 +171,10 @@ void EventLocation::measure_undirected(double h, const State& next, EventFunctio
 
 double EventLocation::force(EventFunction& function, double t, const Vec& lambda) {
   if (function.kind == Kind::idle) return -system_.spring_force(function.contact, lambda);
-  if (function.kind == Kind::unload) {
+  if (function.kind == Kind::unload) {  // friction that holds exactly at its bound (equal blocks) leaves no spare load
     function.bound = system_.largest_load(function.group, lambda);
-    return function.little + system_.spare_load_as_springs(function.group, lambda);
+    return std::max(function.little, critical_force * function.bound) +
+           system_.spare_load_as_springs(function.group, lambda);
   }
   const double N = system_.normal_force(function.contact, lambda);
   if (function.kind == Kind::load) {

@@ -55,6 +55,11 @@ bool same_modes(const std::vector<model::ContactMode>& a, const std::vector<mode
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
 }
 
+bool same_springs(const std::vector<model::ContactMode>& a, const std::vector<model::ContactMode>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const model::ContactMode& x, const model::ContactMode& y) { return x.spring == y.spring; });
+}
+
 }  // namespace
 
 // A basis of rows has its group, whichever of them are implied. A contact that becomes idle is watched by the same
@@ -68,6 +73,7 @@ void EventLocation::restart(const State& now) {
   std::map<Watched, EventFunction> before;
   if (same_modes(modes_before_, system_.modes().contacts))
     for (const EventFunction& each : functions_) before.emplace(watched(each), each);
+  other_springs_ = !same_springs(modes_before_, system_.modes().contacts);
   functions_.clear();
   at_once_ = h_before_ > 0 && h_before_ <= 2 * shortest_step(now.t);
   h_before_ = longest_ = 0;
@@ -76,7 +82,6 @@ void EventLocation::restart(const State& now) {
   set_thresholds();
   next_.resize(functions_.size()), probe_.resize(functions_.size());
   evaluate(now, now_, signs_);
-  allow_for_critical_friction();
   allow_for_round_off(now);
   choose_sides(before);
   for (EventFunction& function : functions_) measure_undirected(0, now, function);
@@ -313,9 +318,11 @@ void EventLocation::report(int k) {
       return add(system_.model().contacts[contact].restitution ? changes_.struck : changes_.toggled);
     case Kind::leave:
       return add(changes_.toggled);
+    case Kind::unload:
+      add(changes_.unloaded);
+      return add(changes_.released);
     case Kind::press:
     case Kind::idle:
-    case Kind::unload:
     case Kind::follow:
       return add(changes_.released);
     case Kind::lean:

@@ -6,7 +6,7 @@
 //     press      closed contact (Restitution)    its normal force N; a locked one has none
 //     hold       sticking contact                mu_0 N - |T|, T the friction that holds it
 //     idle       closed without a force          minus the force that it would carry as a spring
-//     unload     contacts that share rows        their spare load
+//     unload     contacts that share rows        their spare load, by the springs that hold (rule 15)
 //     follow     contacts that share rows        a small acceleration minus that of an implied direction
 //     lean       contacts that share rows        how far the rows in g are from depending on each other
 //     span       contacts that share rows        a small part of a row minus that which does not follow from the others
@@ -128,7 +128,6 @@ class EventLocation {
   void set_thresholds();
   void keep_what_was_learnt(const std::map<Watched, EventFunction>& before);
   void allow_for_friction_at_bounds();
-  void allow_for_critical_friction();
   void allow_for_round_off(const State& now);
   void choose_sides(const std::map<Watched, EventFunction>& before);
   bool by_force(int k) const {
@@ -200,6 +199,7 @@ class EventLocation {
   bool probed_ = false;                      // probe_ is filled for the step examined
   double h_before_ = 0;                      // [s] 0: no step yet since the last change
   double longest_ = 0;                       // [s] longest step tried since then
+  bool other_springs_ = false;               // the last change was that other springs hold contacts at rest
   bool at_once_ = false;                     // the last change came the shortest step after the one before
   std::vector<Suspect> suspects_;
   std::vector<int> at_end_;

@@ -95,7 +95,8 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
 // now, a force or spare load that was 0 at the event is a new one. A function of a spare load begins at `little`.
 bool EventLocation::shares_otherwise(int k) const {
   const EventFunction& function = functions_[k];
-  if (function.kind == Kind::unload) return now_[k].f > function.little + new_spare_load * function.bound;
+  if (function.kind == Kind::unload)
+    return other_springs_ || now_[k].f > function.little + new_spare_load * function.bound;
   return is_shared_force(function) && now_[k].f > jumps_of_shares * function.little;
 }
 

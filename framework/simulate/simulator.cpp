@@ -158,7 +158,8 @@ void Simulator::complete(const Trial& trial, RecordSink& recorder) {
   accept(trial);
   record_inside(recorder);
   const bool event = trial.found == EventLocation::Found::event;
-  if (event && !(location_.changes().only_leaning() && renew_bases())) {
+  if (event && !(location_.changes().only_leaning() && renew_bases()) &&
+      !(location_.changes().only_unloaded() && renew_springs())) {
     if (passes_infinity(location_.changes())) return jam(recorder, trial.h);
     settle(location_.changes());
     const int contact = events_.empty() ? -1 : events_.back().contact;

@@ -133,6 +133,7 @@ class Simulator {
   void record_inside(RecordSink& recorder);
   void settle(const ContactChanges& changes);
   bool renew_bases();
+  bool renew_springs();
   void guard_against_standstill(double h, double wanted, int contact);
   void guard_against_storm(int contact);  // contact: the last one; -1: unknown
   std::string last_of(int contact) const;

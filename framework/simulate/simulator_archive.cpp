@@ -132,6 +132,10 @@ void Simulator::archive_state(Archive& a) {
         name + "friction");
     modes.contacts[i].friction = model::ContactMode::Friction(friction);
     archive_tangential(a, name, modes.contacts[i]);
+    int spring = int(modes.contacts[i].spring);
+    a(name + "spring", spring);
+    require(spring >= 0 && spring <= int(complementarity::Spring::locked), name + "spring");
+    modes.contacts[i].spring = complementarity::Spring(spring);
   }
   archive_shared(a, modes, dimension(model.world.space));
   if (modes != system_.modes()) system_.set_modes(modes);

@@ -46,6 +46,13 @@ bool Simulator::renew_bases() {
   return true;
 }
 
+// No event: nothing moves, and no force that acts on the motion changes. False: it is an event.
+bool Simulator::renew_springs() {
+  if (!modes_.renew_springs(now_)) return false;
+  location_.restart(now_);
+  return true;
+}
+
 void Simulator::at_new_modes() {
   integrator_.restart(system_, now_);
   restart_all_but_integrator();

@@ -93,8 +93,11 @@ class AssembledSystem final : public System, public HasRigidMotions {
   // [N] for each contact of a group: by how much it can be unloaded until no admissible forces give the same
   // resultants; negative if there are none already.
   double spare_load(int group, const Vec& lambda);
-  // The same for forces as springs (complementarity/shares/springs_at_rest.hpp).
+  // The same for forces as springs (complementarity/shares/springs_at_rest.hpp), by those that ContactMode::spring
+  // says.
   double spare_load_as_springs(int group, const Vec& lambda);
+  // The springs of a group that hold from here on, up to `round_off` [N]; all are locked if none do.
+  std::vector<ContactSpring> find_springs(int group, const Vec& lambda, double round_off);
   // Such forces of a group; those that leave their cones least, if there are none.
   std::vector<Carried> carried_as_springs(int group, const Vec& lambda);
   double largest_load(int group, const Vec& lambda);  // [N] the largest of their forces

@@ -72,6 +72,15 @@ double AssembledSystem::spare_load_as_springs(int group, const Vec& lambda) {
   return std::max(spare, loads.spare_load_as_springs_with_sliding(group, p.shares.moved_with_sliding(group)));
 }
 
+std::vector<ContactSpring> AssembledSystem::find_springs(int group, const Vec& lambda, double round_off) {
+  Parts& p = *parts_;
+  const ContactLoads& loads = p.shares.prepared(group, lambda);
+  const std::vector<ContactSpring> springs = loads.find_springs(group, round_off);
+  const bool hold = springs.empty() || springs.front().spring != complementarity::Spring::locked;
+  if (hold || modes().shared[std::size_t(group)].sliding.empty()) return springs;
+  return loads.find_springs_with_sliding(group, p.shares.moved_with_sliding(group), round_off);
+}
+
 std::vector<Carried> AssembledSystem::carried_as_springs(int group, const Vec& lambda) {
   const ContactLoads& loads = parts_->shares.prepared(group, lambda);
   return loads.carried_as_springs(group, parts_->shares.moved_with_sliding(group));

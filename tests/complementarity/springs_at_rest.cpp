@@ -272,6 +272,45 @@ TEST(SpringsAtRest, HoldFeetBesideOneThatSlidesByTheLoadsThatSpringsHave) {
     EXPECT_LT(spare_load_as_springs(feet, E, push, Vec{{30, 0, 1 + held}}), 0) << held;
 }
 
+// A block between floor and ceiling turns about its lower right corner where its weight no longer holds the left one
+// down: the ceiling presses above that.
+TEST(SpringsAtRest, PassToOthersWhereOneHasLostItsForce) {
+  const Channel channel(0.4);
+  std::vector<SharingContact> block = channel.contacts;
+  const Mat push = channel.E(Eigen::all, {0, 2, 4, 6});
+  const auto presses = Spring::presses, parts = Spring::parts;
+  const std::vector<Spring> floor = {presses, presses, parts, parts}, turned = {parts, presses, presses, parts};
+  for (std::size_t i = 0; i < 4; ++i) block[i].spring = floor[i];
+  const auto found = [&](double moment) { return find_springs(block, channel.E, push, Vec{{0, 10, moment}}, 1e-9); };
+  EXPECT_EQ(found(9), floor);
+  EXPECT_EQ(found(10 + 1e-7), turned);
+  EXPECT_EQ(found(11), turned);  // the load has jumped
+}
+
+// A box on two feet, the ceiling close beside the line of one of them. Its feet slip where their friction is used up,
+// although forces between floor and ceiling, which no displacement makes, would hold it.
+TEST(SpringsAtRest, AreNotWedgedInByALoadThatGrowsLittleByLittle) {
+  const double mu = 0.6, weight = 32.4711, end = mu * weight / (39.06853686773193 + mu * 8.899507103750704);
+  Mat E(3, 6);
+  E << 0, 1, 0, 1, 0, 1,  // along the floor
+      1, 0, 1, 0, -1, 0,  // up
+      -0.386, 0.263, 0.386, 0.263, -0.380596, -0.263;
+  const Mat push = E(Eigen::all, {0, 2, 4});
+  std::vector<SharingContact> box = {{0, {1}, mu, 0}, {2, {3}, mu, 0}, {4, {5}, mu, 0}};
+  const std::vector<Spring> feet = {Spring::presses, Spring::presses, Spring::parts};
+  const auto load = [weight](double t) {
+    return Vec{{39.06853686773193 * t, weight - 8.899507103750704 * t, 2.5515561 * t}};
+  };
+  for (const double t : {0.5 * end, (1 + 1e-8) * end}) {
+    const auto any = find_springs(box, E, push, load(t), 1e-9);
+    ASSERT_TRUE(any) << t;
+    EXPECT_EQ(*any == feet, t < end) << t;
+  }
+  for (std::size_t i = 0; i < 3; ++i) box[i].spring = feet[i];
+  EXPECT_EQ(find_springs(box, E, push, load((1 - 1e-8) * end), 1e-9), feet);
+  EXPECT_FALSE(find_springs(box, E, push, load((1 + 1e-8) * end), 1e-9));
+}
+
 // Two corners of a block, each between two contacts whose normals differ by the angle by which the blocks have turned.
 // Friction is ample, so the load decides what the least loaded contact can spare.
 TEST(SpringsAtRest, SpareWhatTheLeastLoadedOfNearlyCoincidentContactsHas) {

@@ -14,6 +14,7 @@
 #include <trammel/types.hpp>
 
 #include "complementarity/programs/cone_program.hpp"
+#include "complementarity/shares/spring.hpp"
 
 namespace trammel::complementarity {
 
@@ -24,6 +25,7 @@ struct SharingContact {
   double coefficient = 0;              // c
   double given = 0;                    // N, where `normal` is -1
   bool carries = true;                 // false: spare_load does not unload it (a slack, or a contact that slides)
+  Spring spring = Spring::undecided;   // springs_at_rest.hpp
 };
 
 // The program of E F = lambda and the cones for x = (N, T/c), contact after contact, that minimises |F|^2 / 2; the last

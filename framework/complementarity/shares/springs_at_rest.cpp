@@ -5,10 +5,9 @@
 #include <limits>
 #include <utility>
 
-#include <trammel/decompositions.hpp>
-
 #include "complementarity/shares/pressing_forces.hpp"
 #include "complementarity/shares/spare_load.hpp"
+#include "complementarity/shares/spring_equations.hpp"
 
 namespace trammel::complementarity {
 namespace {
@@ -28,52 +27,17 @@ constexpr double round_off_of_resultants = 1e-14;
 // press others if a slack is more negative.
 constexpr double not_carried = 1e-9;
 constexpr double no_part_in_self_stress = 1e-12;
-// Of the largest row: what a row adds to those it follows from. It could be carried by forces without bounds only.
-constexpr double round_off_of_rows = 1e-11;
 // Of the largest force: sets that can spare as much are as good as any, those that lack as much have no forces.
 constexpr double much_to_spare = 0.25, least_spare = -1e6;
-
-// Whether the springs of a contact press. Of one that may do either, force and slack may both be positive.
-enum class Spring { presses, parts, either };
-using Set = std::vector<Spring>;
-
-// The contacts that press and the columns of their forces; after these, the slacks of the others. Their equations.
-struct Pressing {
-  std::vector<SharingContact> contacts;
-  std::vector<Index> columns;
-  std::vector<Index> slack_of;  // by contact: the column of its slack, or -1
-  Mat E;
-  Vec lambda;
-  bool carries = true;  // false: these equations have no solution, whatever the signs of the forces
-};
-
-Eigen::ColPivHouseholderQR<Mat> decomposed(const Mat& rows) {
-  Eigen::ColPivHouseholderQR<Mat> qr(rows);
-  qr.setThreshold(round_off_of_rows);
-  return qr;
-}
-
-// Only independent rows are kept.
-void make_independent(Pressing& p) {
-  const Eigen::ColPivHouseholderQR<Mat> qr = decomposed(p.E);
-  const Mat Q = first_columns_of_q(qr, qr.rank());
-  const Vec all = p.lambda;
-  p.E = Q.transpose() * p.E;
-  p.lambda = Q.transpose() * p.lambda;
-  p.carries = (all - Q * p.lambda).norm() <= not_carried * all.norm();
-}
+// Of the resultants: at the instant found for the end of a set, its forces exist up to this. If more is missing, the
+// loads have jumped.
+constexpr double error_at_end = 1e-6;
 
 std::vector<Index> normals_of(const std::vector<SharingContact>& contacts) {
   std::vector<Index> normals;
   for (const SharingContact& c : contacts)
     if (c.normal >= 0) normals.push_back(c.normal);
   return normals;
-}
-
-// Columns: the normal forces that are in balance with each other.
-Mat self_stress(const Mat& E_n) {
-  const Eigen::ColPivHouseholderQR<Mat> qr = decomposed(E_n.transpose());
-  return last_columns_of_q(qr, E_n.cols() - qr.rank());
 }
 
 // Springs between bodies that yield a little, N = max(0, E_n^T y) with E_n N = r - compliance y, found by pivoting;
@@ -108,9 +72,9 @@ double largest(const std::vector<SharingContact>& contacts, const Vec& F) {
   return most;
 }
 
-Set that_press(const std::vector<SharingContact>& contacts, const Vec& F) {
+SpringSet that_press(const std::vector<SharingContact>& contacts, const Vec& F) {
   const double least = no_force_of_springs * largest(contacts, F);
-  Set press;
+  SpringSet press;
   for (const SharingContact& c : contacts)
     press.push_back((c.normal >= 0 ? F[c.normal] : c.given) > least ? Spring::presses : Spring::parts);
   return press;
@@ -130,50 +94,6 @@ bool in_cones(const std::vector<SharingContact>& contacts, const Vec& F) {
   });
 }
 
-// Z: self-stress of all.
-Pressing only(const Set& press, const std::vector<SharingContact>& contacts, const Mat& E, const Mat& Z,
-              const Vec& lambda) {
-  Pressing p;
-  std::vector<Index> force_of(contacts.size(), -1), slack_of(contacts.size(), -1);  // columns
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (press[i] == Spring::parts) continue;
-    SharingContact own = contacts[i];
-    const auto take = [&p](Index& column) {
-      p.columns.push_back(column);
-      column = Index(p.columns.size()) - 1;
-    };
-    if (own.normal >= 0) take(own.normal), force_of[i] = own.normal;
-    for (Index& k : own.tangents) take(k);
-    p.contacts.push_back(std::move(own));
-  }
-  Index columns = Index(p.columns.size());
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (press[i] == Spring::presses || contacts[i].normal < 0) continue;
-    SharingContact& slack = p.contacts.emplace_back();
-    slack.normal = slack_of[i] = columns++, slack.carries = false;
-  }
-  p.E = Mat::Zero(E.rows() + Z.cols(), columns);
-  p.E.topLeftCorner(E.rows(), Index(p.columns.size())) = E(Eigen::all, p.columns);
-  Index row = 0;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (contacts[i].normal < 0) continue;
-    if (force_of[i] >= 0) p.E.col(force_of[i]).tail(Z.cols()) = Z.row(row).transpose();
-    if (slack_of[i] >= 0) p.E.col(slack_of[i]).tail(Z.cols()) = -Z.row(row).transpose();
-    ++row;
-  }
-  p.lambda = Vec::Zero(p.E.rows());
-  p.lambda.head(lambda.size()) = lambda;
-  p.slack_of = slack_of;
-  make_independent(p);
-  return p;
-}
-
-Vec with_idle(const Pressing& p, const Vec& own, Index columns) {
-  Vec F = Vec::Zero(columns);
-  F(p.columns) = own.head(Index(p.columns.size()));
-  return F;
-}
-
 bool carries(const Mat& E, const Vec& F, const Vec& lambda, double carried) {
   return (E * F - lambda).norm() <= carried * lambda.norm();
 }
@@ -187,8 +107,9 @@ bool may_lock(const std::vector<SharingContact>& contacts, const Mat& push) {
 
 // The spare load of forces as springs, up to what is much; the contacts that press with it, and forces that have it.
 struct Found {
+  SpringSet set;
   double spare = -std::numeric_limits<double>::infinity();
-  Pressing pressing;
+  SpringEquations equations;
   Vec F;
   bool consistent = true;  // springs could press so
   bool better_than(const Found& other) const {
@@ -206,15 +127,50 @@ class Search {
   Found among_followers(Vec F) {
     size_ = largest(contacts_, F);
     for (int round = 0; round < most_rounds; ++round) {
-      const Set press = that_press(contacts_, with_normals_of_springs(contacts_, push_, F));
+      const SpringSet press = that_press(contacts_, with_normals_of_springs(contacts_, push_, F));
       if (seen(press)) break;
       if (std::none_of(press.begin(), press.end(), [](Spring spring) { return spring == Spring::presses; })) {
-        if (round == 0) best_ = {-lambda_.norm(), {}, Vec::Zero(E_.cols()), true};  // nothing carries
+        if (round == 0) best_ = {press, -lambda_.norm(), {}, Vec::Zero(E_.cols()), true};  // nothing carries
         break;
       }
       F = judge(press);
     }
     return best_;
+  }
+
+  // The set that held before, where it still does; otherwise the best of those that are reached from it. Nothing if it
+  // misses so much that its loads have jumped.
+  Found among_reached(const SpringSet& before, double round_off) {
+    best_ = of_set(before);
+    if (best_.spare >= -round_off) return std::move(best_);
+    if (!(best_.spare >= -error_at_end * size_)) return {};
+    const std::vector<std::size_t> parting = that_may_part();
+    std::vector<SpringSet> reached = {before};
+    for (std::size_t k = 0; k < reached.size() && reached.size() < most_sets; ++k)
+      for (const std::size_t i : parting) {
+        SpringSet next = reached[k], limit = reached[k];
+        next[i] = next[i] == Spring::parts ? Spring::presses : Spring::parts, limit[i] = Spring::touches;
+        if (std::find(reached.begin(), reached.end(), next) != reached.end() || !nearly_has_forces(limit)) continue;
+        reached.push_back(next);
+        keep_if_better(of_set(next));
+      }
+    return std::move(best_);
+  }
+
+  // Also its slacks are spared: how far the set is from its end.
+  Found of_set(const SpringSet& set) {
+    size_ = lambda_.norm();
+    Found found;
+    found.set = set;
+    found.equations = spring_equations(set, contacts_, E_, Z_, lambda_);
+    SpringEquations& p = found.equations;
+    p.unload_slacks();
+    Vec own;
+    found.spare = std::min(much_to_spare * size_, spare_load(p.contacts, p.E, p.lambda, &own));
+    if (!(p.missed <= not_carried)) found.spare = std::min(found.spare, -p.missed * size_);
+    if (found.spare >= 0) (void)have_forces(p, own);
+    found.F = p.forces_of_all(own, E_.cols());
+    return found;
   }
 
   // If these hold nothing, all sets; of many contacts one that is found by decisions one after the other. If springs
@@ -224,7 +180,7 @@ class Search {
     if (best_.spare >= -not_carried * size_) return std::move(best_);
     const std::vector<std::size_t> parting = that_may_part();
     if (count_sets(parting.size()) <= most_sets)
-      judge_all(Set(contacts_.size(), Spring::presses), parting, 0, Z_.cols());
+      judge_all(SpringSet(contacts_.size(), Spring::presses), parting, 0, Z_.cols());
     else
       judge_some(parting);
     if (best_.F.size() == 0) judge_neighbours();
@@ -232,7 +188,15 @@ class Search {
   }
 
  private:
-  bool seen(const Set& press) const { return std::find(seen_.begin(), seen_.end(), press) != seen_.end(); }
+  bool seen(const SpringSet& press) const { return std::find(seen_.begin(), seen_.end(), press) != seen_.end(); }
+
+  // At the instant found for the end of another set.
+  bool nearly_has_forces(const SpringSet& set) const {
+    const SpringEquations p = spring_equations(set, contacts_, E_, Z_, lambda_);
+    Vec own;
+    return p.missed <= error_at_end &&
+           admissible_forces(p.contacts, p.E, p.lambda, own) <= error_at_end * p.lambda.norm();
+  }
 
   // Those with a part in a self-stress.
   std::vector<std::size_t> that_may_part() const {
@@ -255,7 +219,7 @@ class Search {
 
   // At most `more` of the contacts from parting[first] on part: slacks x >= 0 with given Z^T x exist only if they do
   // with no more of them than columns of Z (Caratheodory).
-  void judge_all(Set press, const std::vector<std::size_t>& parting, std::size_t first, Index more) {
+  void judge_all(SpringSet press, const std::vector<std::size_t>& parting, std::size_t first, Index more) {
     if (!seen(press)) judge_those_of(press);
     if (more == 0) return;
     for (std::size_t k = first; k < parting.size(); ++k) {
@@ -266,38 +230,38 @@ class Search {
   }
 
   // Of contacts that may press some have no force: without these more can be spared.
-  void judge_those_of(const Set& may_press) {
+  void judge_those_of(const SpringSet& may_press) {
     const Found found = judged(may_press, -not_carried * size_);
     if (!(found.spare >= -not_carried * size_)) return;
     keep_if_better(found);
-    const Set press = that_press(contacts_, found.F);
+    const SpringSet press = that_press(contacts_, found.F);
     if (!seen(press)) judge(press);
   }
 
   void judge_some(const std::vector<std::size_t>& parting) {
-    Set set(contacts_.size(), Spring::presses);
-    for (const std::size_t i : parting) set[i] = Spring::either;
+    SpringSet set(contacts_.size(), Spring::presses);
+    for (const std::size_t i : parting) set[i] = Spring::undecided;
     int left = most_decisions;
     (void)decide_one_by_one(set, left);
   }
 
   // In the least forces of contacts that may do either, the one whose force and slack are both the largest is to do
   // what the larger one says, until there is none; where this leads to no forces, the contrary. True if a set holds.
-  bool decide_one_by_one(Set set, int& left) {
+  bool decide_one_by_one(SpringSet set, int& left) {
     if (left-- <= 0) return false;
-    const Pressing p = only(set, contacts_, E_, Z_, lambda_);
+    const SpringEquations p = spring_equations(set, contacts_, E_, Z_, lambda_);
     Vec own;
     const double missed = admissible_forces(p.contacts, p.E, p.lambda, own);
-    if (!p.carries || !(missed <= not_carried * p.lambda.norm())) return false;
-    const Vec F = with_idle(p, own, E_.cols());
+    if (!(p.missed <= not_carried) || !(missed <= not_carried * p.lambda.norm())) return false;
+    const Vec F = p.forces_of_all(own, E_.cols());
     std::size_t worst = 0;
     double most = 0;
     for (std::size_t i = 0; i < set.size(); ++i) {
-      const double both = set[i] == Spring::either ? std::min(F[contacts_[i].normal], own[p.slack_of[i]]) : 0;
+      const double both = set[i] == Spring::undecided ? std::min(F[contacts_[i].normal], own[p.slack_of[i]]) : 0;
       if (both > most) worst = i, most = both;
     }
     if (most <= no_force_of_springs * size_) {
-      const Set press = that_press(contacts_, F);
+      const SpringSet press = that_press(contacts_, F);
       if (!seen(press)) judge(press);
       return best_.spare >= -not_carried * size_;
     }
@@ -311,16 +275,16 @@ class Search {
   }
 
   void judge_neighbours() {
-    const std::vector<Set> sets = seen_;
-    for (const Set& set : sets)
+    const std::vector<SpringSet> sets = seen_;
+    for (const SpringSet& set : sets)
       for (std::size_t i = 0; i < set.size(); ++i) {
-        Set other = set;
+        SpringSet other = set;
         other[i] = other[i] == Spring::parts ? Spring::presses : Spring::parts;
         if (!seen(other)) keep_if_better(judged(other, std::max(best_.spare, least_spare * size_)));
       }
   }
 
-  Vec judge(const Set& press) {
+  Vec judge(const SpringSet& press) {
     Found found = judged(press);
     keep_if_better(found);
     return found.F;
@@ -332,29 +296,30 @@ class Search {
 
   // With the least forces of the set, or those that leave their cones least: forces that spare most may be of any size
   // (a strut that locks). A set that spares less than `wanted` is not consistent.
-  Found judged(const Set& press, double wanted = -std::numeric_limits<double>::infinity()) {
+  Found judged(const SpringSet& press, double wanted = -std::numeric_limits<double>::infinity()) {
     seen_.push_back(press);
     Found found;
     found.consistent = false;
-    found.pressing = only(press, contacts_, E_, Z_, lambda_);
-    const Pressing& p = found.pressing;
-    if (!p.carries && !std::isinf(wanted)) return found;
+    found.set = press;
+    found.equations = spring_equations(press, contacts_, E_, Z_, lambda_);
+    const SpringEquations& p = found.equations;
+    if (!(p.missed <= not_carried) && !std::isinf(wanted)) return found;
     Vec own;
     found.spare = std::min(much_to_spare * size_, spare_load(p.contacts, p.E, p.lambda, &own, wanted));
     if (found.spare < wanted) return found;
-    found.consistent = springs_press_so(p, found.spare, own) && p.carries;
-    found.F = with_idle(p, own, E_.cols());
+    found.consistent = springs_press_so(p, found.spare, own) && p.missed <= not_carried;
+    found.F = p.forces_of_all(own, E_.cols());
     return found;
   }
 
   // Fills in the least ones.
-  static bool have_forces(const Pressing& p, Vec& own) {
+  static bool have_forces(const SpringEquations& p, Vec& own) {
     return admissible_forces(p.contacts, p.E, p.lambda, own) <= not_carried * p.lambda.norm();
   }
 
   // Forces of the set exist, with slacks that are not negative: inside the cones, which the least ones show, or beyond
   // them by no more than the spare load lacks.
-  static bool springs_press_so(const Pressing& p, double spare, Vec& own) {
+  static bool springs_press_so(const SpringEquations& p, double spare, Vec& own) {
     if (spare >= 0) return have_forces(p, own);
     const double error = not_carried * own.lpNorm<Eigen::Infinity>();
     if (!((p.E * own - p.lambda).norm() <= not_carried * p.lambda.norm())) return false;
@@ -369,17 +334,60 @@ class Search {
   const Vec& lambda_;
   Mat Z_;
   double size_ = 0;  // of the forces
-  std::vector<Set> seen_;
+  std::vector<SpringSet> seen_;
   Found best_;
 };
+
+// Whether forces inside the cones are in balance with each other, so that they may be of any size (a strut that locks).
+bool may_wedge(const std::vector<SharingContact>& contacts, const Mat& E) {
+  std::vector<SharingContact> free;
+  Mat balanced = Mat::Zero(E.rows() + 1, E.cols());
+  balanced.topRows(E.rows()) = E;
+  for (const SharingContact& c : contacts) {
+    if (c.normal < 0) continue;
+    free.push_back(c);
+    balanced(E.rows(), c.normal) = 1;
+  }
+  const Vec of_size_1 = Vec::Unit(E.rows() + 1, E.rows());
+  Vec F;
+  return admissible_forces(free, balanced, of_size_1, F) <= not_carried;
+}
+
+SpringSet set_of(const std::vector<SharingContact>& contacts) {
+  SpringSet set;
+  for (const SharingContact& c : contacts) set.push_back(c.spring);
+  return set;
+}
+
+bool contains(const SpringSet& set, Spring spring) {
+  return std::find(set.begin(), set.end(), spring) != set.end();
+}
+
+// All sets count, unless nothing holds.
+Found best_of_all(const std::vector<SharingContact>& contacts, const Mat& E, const Mat& push, const Vec& lambda,
+                  Vec& begin) {
+  const bool may_hold = spare_load(contacts, E, lambda, &begin) >= 0;
+  if (may_hold) admissible_forces(contacts, E, lambda, begin);
+  Search search(contacts, E, push, lambda);
+  return may_hold ? search.among_all(begin) : search.among_followers(begin);
+}
 
 }  // namespace
 
 bool forces_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, double carried,
                        Vec& F) {
+  const SpringSet set = set_of(contacts);
+  if (contains(set, Spring::locked)) return false;
+  const Mat push = E(Eigen::all, normals_of(contacts));
+  if (!contains(set, Spring::undecided)) {
+    const SpringEquations p = spring_equations(set, contacts, E, self_stress(push), lambda);
+    Vec own;
+    admissible_forces(p.contacts, p.E, p.lambda, own);
+    F = p.forces_of_all(own, E.cols());
+    return carries(E, F, lambda, carried);
+  }
   admissible_forces(contacts, E, lambda, F);
   if (!carries(E, F, lambda, carried)) return false;
-  const Mat push = E(Eigen::all, normals_of(contacts));
   if (!may_lock(contacts, push)) return true;
   const Vec springs = with_normals_of_springs(contacts, push, F);
   if (in_cones(contacts, springs)) {
@@ -389,10 +397,10 @@ bool forces_as_springs(const std::vector<SharingContact>& contacts, const Mat& E
   const Found found = Search(contacts, E, push, lambda).among_all(F);
   if (found.F.size() == 0) return false;
   if (!(found.spare >= -carried * largest(contacts, found.F))) return false;
-  if (found.pressing.columns.empty()) return true;  // nothing is to be carried
+  if (found.equations.columns.empty()) return true;  // nothing is to be carried
   Vec own;
-  admissible_forces(found.pressing.contacts, found.pressing.E, found.pressing.lambda, own);
-  F = with_idle(found.pressing, own, E.cols());
+  admissible_forces(found.equations.contacts, found.equations.E, found.equations.lambda, own);
+  F = found.equations.forces_of_all(own, E.cols());
   return carries(E, F, lambda, carried);
 }
 
@@ -402,15 +410,31 @@ double spare_load_as_springs(const std::vector<SharingContact>& contacts, const 
 
 double spare_load_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Mat& push,
                              const Vec& lambda, Vec* F) {
-  if (!may_lock(contacts, push)) return spare_load(contacts, E, lambda, F);
+  const SpringSet set = set_of(contacts);
+  if (contains(set, Spring::locked) || !may_lock(contacts, push)) return spare_load(contacts, E, lambda, F);
   Vec begin;
-  const bool may_hold = spare_load(contacts, E, lambda, &begin) >= 0;
-  if (may_hold) admissible_forces(contacts, E, lambda, begin);
-  Search search(contacts, E, push, lambda);
-  const Found found = may_hold ? search.among_all(begin) : search.among_followers(begin);
+  const Found found = contains(set, Spring::undecided) ? best_of_all(contacts, E, push, lambda, begin)
+                                                       : Search(contacts, E, push, lambda).of_set(set);
   const bool any = found.F.size() > 0;
   if (F) *F = any ? found.F : begin;
   return any ? found.spare : -lambda.norm();
+}
+
+std::optional<std::vector<Spring>> find_springs(const std::vector<SharingContact>& contacts, const Mat& E,
+                                                const Mat& push, const Vec& lambda, double round_off) {
+  const SpringSet before = set_of(contacts), any(contacts.size(), Spring::undecided);
+  if (!may_lock(contacts, push)) {
+    if (spare_load(contacts, E, lambda) >= -round_off) return any;
+    return std::nullopt;
+  }
+  Found found;
+  if (!contains(before, Spring::undecided) && !contains(before, Spring::locked))
+    found = Search(contacts, E, push, lambda).among_reached(before, round_off);
+  Vec begin;
+  if (found.F.size() == 0 || (!(found.spare >= -round_off) && !may_wedge(contacts, E)))
+    found = best_of_all(contacts, E, push, lambda, begin);
+  if (found.F.size() == 0 || !(found.spare >= -round_off)) return std::nullopt;
+  return found.set;
 }
 
 }  // namespace trammel::complementarity

@@ -17,15 +17,23 @@
 // positive ones than columns of Z (Caratheodory). Of more than 8 contacts, if the sets are too many, one is
 // sought by branches: each contact may have a force and a slack at first, and those with both are decided one by one.
 // Without friction a self-stress holds nothing, so all admissible forces count.
+//
+// Forces that are in balance with each other inside the cones may be of any size: a strut between floor and ceiling
+// could be wedged in at any time. While loads change little by little, springs do not wedge it in: they pass from one
+// set to another only by forces that belong to both, those of the one set where contacts that change have neither a
+// force nor a slack. So the set that held before (SharingContact::spring) holds as long as it can, and then only sets
+// that are reached from it in this way count (`find_springs`). Where nothing can be wedged in, all sets do.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "complementarity/shares/admissible_forces.hpp"
 
 namespace trammel::complementarity {
 
-// Fills F; false if no such forces have the resultants lambda. `carried`: the largest |E F - lambda| / |lambda|.
+// Fills F; false if no such forces have the resultants lambda. `carried`: the largest |E F - lambda| / |lambda|. Here
+// and below, contacts whose springs are decided press or part as they say.
 [[nodiscard]] bool forces_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda,
                                      double carried, Vec& F);
 // The spare load (spare_load.hpp) of such forces, bounded where there is much. Fills F with the forces of its solution,
@@ -36,5 +44,11 @@ double spare_load_as_springs(const std::vector<SharingContact>& contacts, const 
 // their springs yield along n: `push` has the columns of n for the normal forces of all, which take the place of E_n.
 double spare_load_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Mat& push,
                              const Vec& lambda, Vec* F = nullptr);
+
+// The set of springs that holds: that of `contacts`, which has held so far, or where it does no more, one that follows;
+// undecided where no self-stress can hold anything. If none has held so far, or the loads have jumped, all sets count.
+// None holds: nothing. `round_off` [N]: a spare load may be as negative.
+std::optional<SpringSet> find_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Mat& push,
+                                      const Vec& lambda, double round_off);
 
 }  // namespace trammel::complementarity

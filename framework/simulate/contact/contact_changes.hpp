@@ -10,6 +10,7 @@ namespace trammel::simulate {
 struct ContactChanges {
   std::vector<int> struck;    // open Restitution contacts whose gap fell through 0
   std::vector<int> released;  // closed Restitution contacts whose force fell through 0
+  std::vector<int> unloaded;  // those among them whose group has lost what it could spare
   std::vector<int> toggled;   // ContactForce: force on or off
   std::vector<int> yielded;   // sticking contacts whose friction reached its bound
   std::vector<int> stopped;   // sliding contacts whose slip reached 0
@@ -22,12 +23,17 @@ struct ContactChanges {
     others.leaning = false;
     return leaning && others.empty();
   }
+  bool only_unloaded() const {
+    ContactChanges others = *this;
+    others.unloaded.clear(), others.released.clear();
+    return !unloaded.empty() && released == unloaded && others.empty();
+  }
   bool empty() const {
     return struck.empty() && released.empty() && toggled.empty() && yielded.empty() && stopped.empty() && !leaning &&
            !locked;
   }
   void clear() {
-    struck.clear(), released.clear(), toggled.clear(), yielded.clear(), stopped.clear();
+    struck.clear(), released.clear(), unloaded.clear(), toggled.clear(), yielded.clear(), stopped.clear();
     leaning = locked = false, raised = 0;
   }
 };

@@ -107,9 +107,11 @@
 //     forces as springs do not hold those of a group that rest, friction of its contacts is bounded by their springs'
 //     normal forces, that of its sliding ones (feet on a belt below a table) follows from them, those at their bounds
 //     let go, and all modes are decided again: until the normal forces in the modes decided are those of the friction,
-//     up to their errors if the modes stay. So a clearance of 0 is the limit of small ones, and rigid contacts move as
-//     stiff compliant ones. Where this comes to no end (a stack that has locked while it slid), rest stays. Rule 12
-//     decides groups in which something slides and a contact at rest is at its bound.
+//     up to their errors if the modes come up again. So a clearance of 0 is the limit of small ones, and rigid contacts
+//     move as stiff compliant ones. Where this comes to no end (a stack that has locked while it slid), rest stays, by
+//     any forces. Rule 12 decides groups in which something slides and a contact at rest is at its bound. Which springs
+//     press is part of the modes: while loads change little by little they hold as long as they can, and then pass to
+//     others without an event (renew_springs), but not to such as would be wedged in.
 //
 // `rebound: constrained` makes candidates of contacts that separate at e u-. `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0. `onset: next_step` only changes when an event is seen.
@@ -152,6 +154,7 @@ class ContactModes {
 
   // Between events (present_contacts.hpp).
   [[nodiscard]] bool renew_bases(State& state) { return simulate::renew_bases(scene_, state); }
+  [[nodiscard]] bool renew_springs(const State& state) { return simulate::renew_springs(scene_, state); }
   double distance_from_critical(const State& state) { return simulate::distance_from_critical(scene_, state); }
 
  private:

@@ -1,9 +1,11 @@
 #include "simulate/settling/present_contacts.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 
 #include "simulate/decision/participants.hpp"
+#include "simulate/verdicts/errors_of_solutions.hpp"
 #include "simulate/verdicts/groups.hpp"
 
 namespace trammel::simulate {
@@ -59,6 +61,21 @@ bool renew_bases(const ContactScene& scene, State& state) {
   scene.system.set_modes(modes);
   scene.system.move_to(state.t, state.q, state.v);
   scene.system.accelerate({}, state.a, state.lambda);
+  return true;
+}
+
+bool renew_springs(const ContactScene& scene, const State& state) {
+  model::Modes modes = scene.system.modes();
+  if (std::any_of(modes.shared.begin(), modes.shared.end(), has_sliding)) return false;
+  Vec a, lambda;
+  scene.system.move_to(state.t, state.q, state.v);
+  scene.system.accelerate({}, a, lambda);
+  for (int group = 0; group < int(modes.shared.size()); ++group) {
+    const double round_off = round_off_of_loads * scene.system.largest_load(group, lambda);
+    if (!take_springs(scene.system.find_springs(group, lambda, round_off), modes)) return false;
+  }
+  if (modes == scene.system.modes()) return false;
+  scene.system.set_modes(modes);
   return true;
 }
 

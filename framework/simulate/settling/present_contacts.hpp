@@ -19,5 +19,8 @@ double distance_from_critical(const ContactScene& scene, const State& state);
 // modes are to be decided (rule 13), since the others no longer hold an idle contact, or since a row has ceased to
 // follow from others: its own force would hold what the contacts, which share a point no more, accelerate apart.
 [[nodiscard]] bool renew_bases(const ContactScene& scene, State& state);
+// Modes stay as they are, and nothing moves: other springs hold contacts at rest (rule 15). False: modes are to be
+// decided, since none do.
+[[nodiscard]] bool renew_springs(const ContactScene& scene, const State& state);
 
 }  // namespace trammel::simulate

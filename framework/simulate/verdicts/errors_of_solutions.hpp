@@ -9,7 +9,8 @@ inline constexpr double most_error_of_forces = 1e-6;
 inline constexpr double undecided = 10;
 // Relative to the largest acceleration in the island, which may cancel in the others.
 inline constexpr double error_of_accelerations = 1e-12;
-// Of the largest load of a group: a spare load may be negative by this round-off.
-inline constexpr double round_off_of_loads = 1e-9;
+// Of the largest load of a group: a spare load may be negative by this round-off. An event shows that more is missing
+// (EventLocation's critical_force).
+inline constexpr double round_off_of_loads = 5e-10;
 
 }  // namespace trammel::simulate

@@ -48,4 +48,9 @@ void keep_others(const model::Modes& decided, std::vector<bool> asked, model::Mo
     if (!is_asked(group)) modes.shared.push_back(group);
 }
 
+bool take_springs(const std::vector<model::ContactSpring>& found, model::Modes& modes) {
+  for (const auto& [contact, spring] : found) modes.contacts[std::size_t(contact)].spring = spring;
+  return found.empty() || found.front().spring != complementarity::Spring::locked;
+}
+
 }  // namespace trammel::simulate

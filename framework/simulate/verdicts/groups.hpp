@@ -16,4 +16,7 @@ bool shares_tangents(const model::SharedRows& group, int contact);
 // either modes is asked as a whole, so that none names rows that its contacts do not have.
 void keep_others(const model::Modes& decided, std::vector<bool> asked, model::Modes& modes);
 
+// Takes the springs found for a group; false if none hold.
+[[nodiscard]] bool take_springs(const std::vector<model::ContactSpring>& found, model::Modes& modes);
+
 }  // namespace trammel::simulate

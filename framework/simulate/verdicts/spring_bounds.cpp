@@ -9,8 +9,8 @@
 namespace trammel::simulate {
 namespace {
 
-// Of the largest force in the island: bounds that differ by less are the same. In the same modes these do not depend on
-// the bounds, and the forces may have errors.
+// Of the largest force in the island: bounds that differ by less are the same. In modes of an earlier round these do
+// not depend on the bounds, and the forces may have errors.
 constexpr double same_bound = 1e-9;
 constexpr int most_rounds = 10;
 
@@ -20,6 +20,18 @@ bool same_modes(const model::Modes& one, const model::Modes& other) {
 }
 
 }  // namespace
+
+// Of the contacts that share; the others have none.
+void SpringBounds::take_springs_before() {
+  for (model::ContactMode& mode : at_.modes.contacts) mode.spring = complementarity::Spring::undecided;
+  const auto take = [this](const model::ContactDirection& d) {
+    at_.modes.contacts[std::size_t(d.contact)].spring = at_.before.contacts[std::size_t(d.contact)].spring;
+  };
+  for (const model::SharedRows& group : at_.modes.shared) {
+    std::for_each(group.basis.begin(), group.basis.end(), take);
+    std::for_each(group.implied.begin(), group.implied.end(), take);
+  }
+}
 
 // By contact: what members of groups carry as springs, if such forces do not hold those at rest. `held` are at their
 // bounds beside sliding ones (rule 12).
@@ -32,7 +44,7 @@ std::map<int, model::Carried> SpringBounds::carried_by_springs(const std::vector
   for (int g = 0; g < int(at_.modes.shared.size()); ++g) {
     if (decided_by_rule_12(at_.modes.shared[std::size_t(g)])) continue;
     const double round_off = round_off_of_loads * system_.largest_load(g, forces_.lambda());
-    if (system_.spare_load_as_springs(g, forces_.lambda()) >= -round_off) continue;
+    if (take_springs(system_.find_springs(g, forces_.lambda(), round_off), at_.modes)) continue;
     for (const model::Carried& each : system_.carried_as_springs(g, forces_.lambda())) carried[each.contact] = each;
   }
   return carried;
@@ -41,13 +53,17 @@ std::map<int, model::Carried> SpringBounds::carried_by_springs(const std::vector
 bool SpringBounds::bound_by_springs(const State& state, const std::vector<Participant*>& held) {
   const auto bounded = [](const Participant& p) { return p.pressed >= 0; };
   const bool any_bounded = std::any_of(problem_.who.begin(), problem_.who.end(), bounded);
-  if (rounds_ > most_rounds || (at_.modes.shared.empty() && !any_bounded)) return false;
-  if (!forces_.exist(state)) return false;
+  take_springs_before();
+  if ((at_.modes.shared.empty() && !any_bounded) || !forces_.exist(state)) return false;
   if (!any_bounded) without_bounds_ = problem_.who;
   const std::map<int, model::Carried> carried = carried_by_springs(held);
+  if (rounds_ > most_rounds) return false;
   const std::vector<double> largest = problem_.largest_in_island();
-  const double same = any_bounded && same_modes(at_.modes, modes_so_bounded_) ? most_error_of_forces : same_bound;
-  modes_so_bounded_ = at_.modes;
+  if (!any_bounded) modes_so_bounded_.clear();
+  const bool again = std::any_of(modes_so_bounded_.begin(), modes_so_bounded_.end(),
+                                 [this](const model::Modes& modes) { return same_modes(at_.modes, modes); });
+  const double same = again ? most_error_of_forces : same_bound;
+  modes_so_bounded_.push_back(at_.modes);
   bool changed = false;
   for (std::size_t i = 0; i < problem_.who.size(); ++i) {
     Participant& p = problem_.who[i];

@@ -1,4 +1,5 @@
-// Rule 15 of contact_mode.hpp: contacts at rest press no more than springs do, which bounds their friction.
+// Rule 15 of contact_mode.hpp: contacts at rest press no more than springs do, which bounds their friction. Sets the
+// springs of at.modes.
 #pragma once
 
 #include <map>
@@ -10,7 +11,7 @@ namespace trammel::simulate {
 
 class SpringBounds {
  public:
-  SpringBounds(const ContactScene& scene, const ContactsAtEvent& at, ContactProblem& problem, ForcesInModes& forces)
+  SpringBounds(const ContactScene& scene, ContactsAtEvent& at, ContactProblem& problem, ForcesInModes& forces)
       : system_(scene.system), at_(at), problem_(problem), forces_(forces) {}
 
   void restart() { rounds_ = 0; }           // before a decision
@@ -20,16 +21,17 @@ class SpringBounds {
   bool bound_by_springs(const State& state, const std::vector<Participant*>& held);
 
  private:
+  void take_springs_before();
   std::map<int, model::Carried> carried_by_springs(const std::vector<Participant*>& held);
   model::Carried carried_in_modes(int contact);
 
   model::AssembledSystem& system_;
-  const ContactsAtEvent& at_;
+  ContactsAtEvent& at_;
   ContactProblem& problem_;
   ForcesInModes& forces_;
   int rounds_ = 0;
-  std::vector<Participant> without_bounds_;  // before the first of these rounds
-  model::Modes modes_so_bounded_;            // decided in the round before
+  std::vector<Participant> without_bounds_;     // before the first of these rounds
+  std::vector<model::Modes> modes_so_bounded_;  // decided in these rounds
 };
 
 }  // namespace trammel::simulate

@@ -113,6 +113,7 @@ std::vector<complementarity::SharingContact> ContactLoads::sharing(const Group& 
     contact.normal = m.columns[0];
     contact.coefficient = m.bounds.coefficient;
     contact.given = m.bounds.given;
+    contact.spring = modes_->contacts[std::size_t(m.contact)].spring;
     for (const Eigen::Index k : {m.columns[1], m.columns[2]})
       if (k >= 0) contact.tangents.push_back(k);
   }
@@ -152,7 +153,9 @@ ContactLoads::Sharing ContactLoads::with_sliding(int group, const Mat& E) const 
   const Group& g = groups_[std::size_t(group)];
   Sharing all{sharing(g), g.directions, E};
   for (const int contact : modes_->shared[std::size_t(group)].sliding) {
-    all.contacts.emplace_back().normal = Eigen::Index(all.directions.size());
+    complementarity::SharingContact& sliding = all.contacts.emplace_back();
+    sliding.normal = Eigen::Index(all.directions.size());
+    sliding.spring = modes_->contacts[std::size_t(contact)].spring;
     all.directions.push_back(place({contact, 0}).index);
   }
   return all;
@@ -186,36 +189,70 @@ double ContactLoads::spare_load_as_springs(int group) const {
 }
 
 double ContactLoads::spare_load_as_springs_with_sliding(int group, const Mat& E) const {
-  return as_springs(group, with_sliding(group, E)).spare_load;
+  return as_springs(group, with_springs_that_slide(group, E)).spare_load;
 }
 
-// Sliding contacts have an event of their own when they are unloaded: they do not count in the spare load.
-ContactLoads::AsSprings ContactLoads::as_springs(int group, Sharing all) const {
-  const Group& g = groups_[std::size_t(group)];
-  for (std::size_t i = g.members.size(); i < all.contacts.size(); ++i) all.contacts[i].carries = false;
+// Members, then those that slide.
+std::vector<int> ContactLoads::contacts_of(int group) const {
+  std::vector<int> all;
+  for (const Member& m : groups_[std::size_t(group)].members) all.push_back(m.contact);
+  const std::vector<int>& sliding = modes_->shared[std::size_t(group)].sliding;
+  all.insert(all.end(), sliding.begin(), sliding.end());
+  return all;
+}
+
+// The columns of the normal forces' own directions.
+Mat ContactLoads::push(int group, const Sharing& all) const {
   std::vector<Eigen::Index> normals;
   for (const complementarity::SharingContact& c : all.contacts)
     if (c.normal >= 0) normals.push_back(all.directions[std::size_t(c.normal)]);
-  const Mat push = modes_->shared[std::size_t(group)].resultants()(Eigen::all, normals);
-  const Vec resultants = all.E * g.forces(all.directions);
+  return modes_->shared[std::size_t(group)].resultants()(Eigen::all, normals);
+}
+
+// Sliding contacts have an event of their own when they are unloaded: they do not count in the spare load.
+ContactLoads::Sharing ContactLoads::with_springs_that_slide(int group, const Mat& E) const {
+  Sharing all = with_sliding(group, E);
+  for (std::size_t i = groups_[std::size_t(group)].members.size(); i < all.contacts.size(); ++i)
+    all.contacts[i].carries = false;
+  return all;
+}
+
+ContactLoads::AsSprings ContactLoads::as_springs(int group, Sharing all) const {
+  const Vec resultants = all.E * groups_[std::size_t(group)].forces(all.directions);
   AsSprings result;
-  result.spare_load = complementarity::spare_load_as_springs(all.contacts, all.E, push, resultants, &result.forces);
+  result.spare_load =
+      complementarity::spare_load_as_springs(all.contacts, all.E, push(group, all), resultants, &result.forces);
   result.contacts = std::move(all.contacts);
   return result;
+}
+
+std::vector<ContactSpring> ContactLoads::springs_of(int group, const Sharing& all, double round_off) const {
+  const Vec resultants = all.E * groups_[std::size_t(group)].forces(all.directions);
+  const auto found = complementarity::find_springs(all.contacts, all.E, push(group, all), resultants, round_off);
+  const std::vector<int> who = contacts_of(group);
+  std::vector<ContactSpring> springs;
+  for (std::size_t i = 0; i < all.contacts.size(); ++i)
+    springs.push_back({who[i], found ? (*found)[i] : complementarity::Spring::locked});
+  return springs;
+}
+
+std::vector<ContactSpring> ContactLoads::find_springs(int group, double round_off) const {
+  const Group& g = groups_[std::size_t(group)];
+  if (g.members.empty()) return {};  // all slide
+  return springs_of(group, {sharing(g), g.directions, g.E}, round_off);
+}
+
+std::vector<ContactSpring> ContactLoads::find_springs_with_sliding(int group, const Mat& E, double round_off) const {
+  return springs_of(group, with_springs_that_slide(group, E), round_off);
 }
 
 std::vector<Carried> ContactLoads::carried_as_springs(int group, const Mat& E) const {
   const Group& g = groups_[std::size_t(group)];
   const AsSprings springs =
-      as_springs(group, slides(group) ? with_sliding(group, E) : Sharing{sharing(g), g.directions, g.E});
-  std::vector<int> who;
-  for (const Member& m : g.members) who.push_back(m.contact);
-  if (slides(group)) {
-    const std::vector<int>& sliding = modes_->shared[std::size_t(group)].sliding;
-    who.insert(who.end(), sliding.begin(), sliding.end());
-  }
+      as_springs(group, slides(group) ? with_springs_that_slide(group, E) : Sharing{sharing(g), g.directions, g.E});
+  const std::vector<int> who = contacts_of(group);
   std::vector<Carried> all;
-  for (std::size_t i = 0; i < who.size(); ++i) {
+  for (std::size_t i = 0; i < springs.contacts.size(); ++i) {
     const complementarity::SharingContact& c = springs.contacts[i];
     double T = 0;
     for (const Eigen::Index k : c.tangents) T = std::hypot(T, springs.forces[k]);

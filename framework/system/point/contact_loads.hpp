@@ -84,6 +84,10 @@ class ContactLoads {
   // The same for forces as springs: complementarity/shares/springs_at_rest.hpp.
   double spare_load_as_springs(int group) const;
   double spare_load_as_springs_with_sliding(int group, const Mat& E) const;
+  // The springs that hold from here on: `find_springs` there. The first uses members only, the second also those that
+  // slide; all are locked if none hold.
+  std::vector<ContactSpring> find_springs(int group, double round_off) const;
+  std::vector<ContactSpring> find_springs_with_sliding(int group, const Mat& E, double round_off) const;
   // Normal force and friction [N] of each contact, those that slide included, from such forces. E is not used where
   // nothing slides.
   std::vector<Carried> carried_as_springs(int group, const Mat& E) const;
@@ -120,12 +124,16 @@ class ContactLoads {
   bool share_as_springs(Group& group);
   bool slides(int group) const { return !modes_->shared[std::size_t(group)].sliding.empty(); }
   Sharing with_sliding(int group, const Mat& E) const;
+  Sharing with_springs_that_slide(int group, const Mat& E) const;
   struct AsSprings {
     double spare_load = 0;
     std::vector<complementarity::SharingContact> contacts;
     Vec forces;  // [N] in their columns
   };
+  std::vector<int> contacts_of(int group) const;
+  Mat push(int group, const Sharing& all) const;
   AsSprings as_springs(int group, Sharing all) const;
+  std::vector<ContactSpring> springs_of(int group, const Sharing& all, double round_off) const;
   double slack(const Group& group) const;
   std::vector<complementarity::SharingContact> sharing(const Group& group) const;
   double scale(const Group& group) const;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "complementarity/shares/spring.hpp"
 #include "system/point/slip.hpp"
 
 namespace trammel::model {
@@ -22,6 +23,8 @@ struct ContactMode {
   Tangential anchor = Tangential::Zero();     // [m] stick: coordinates along the tangents
   // Stick of a round body in space: A's orientation in B's axes when `anchor` was set, the reference for rolling.
   Eigen::Matrix3d rolled_from = Eigen::Matrix3d::Identity();
+  // In a group of contacts that share rows: what it does as a spring.
+  complementarity::Spring spring = complementarity::Spring::undecided;
 
   bool operator==(const ContactMode&) const = default;
 };
@@ -51,6 +54,12 @@ inline Eigen::MatrixXd SharedRows::resultants() const {
   E << Eigen::MatrixXd::Identity(K.cols(), K.cols()), K.transpose();
   return E;
 }
+
+// What a contact does as a spring.
+struct ContactSpring {
+  int contact;
+  complementarity::Spring spring;
+};
 
 // What a contact carries [N].
 struct Carried {

@@ -150,6 +150,32 @@ TEST(BoxBesideAWall, SlipsAtTheSameInstantWhateverTheNamesOfItsContacts) {
            std::next_permutation(names.begin() + 3, names.end()));
 }
 
+// The ceiling touches it between its feet, but nothing moves it there: it slips where the feet alone hold it no more,
+// m x'' = P t - mu (m g - Q t), although it could be wedged in.
+TEST(BoxBelowACeiling, SlipsWhereItsFeetHoldItNoMore) {
+  std::mt19937 random(5);
+  for (int i = 0; i < 60; ++i) {
+    const double w = between(random, 0.3, 0.9), h = between(random, 0.2, 0.8), m = between(random, 1, 8);
+    const double mu = between(random, 0.3, 1), t = between(random, 0.2, 0.8), Q = between(random, -0.3, 0.3) * m * g;
+    const double P = mu * (m * g / t - Q), x = between(random, -0.5, 0.5) * w;
+    const double y = between(random, -0.5, 0.5) * h;
+    const double turns = (x * Q - (y + h / 2) * P) * t;          // about the middle of the floor
+    if (std::abs(turns) > 0.45 * w * (m * g - Q * t)) continue;  // it would tip
+    json s = scene_of(standing_block(-w / 2, w, h, m));
+    s["bodies"]["b"]["markers"]["pulled"] = {x, y};
+    s["bodies"]["b"]["markers"]["top"] = {between(random, -0.49, 0.49) * w, h / 2};
+    for (const char* foot : {"bl", "br"}) s["contacts"][foot] = contact(fmt::format("b.{}", foot), {0, 0}, {0, 1}, mu);
+    s["contacts"]["top"] = contact("b.top", {0, h}, {0, -1}, mu);
+    s["forces"]["pull"] = {{"type", "load"},
+                           {"on", "b.pulled"},
+                           {"force", {{"x", fmt::format("={:.17g}*t", P)}, {"y", fmt::format("={:.17g}*t", Q)}}}};
+    s["simulate"]["until"] = 1.1 * t;
+    const Finished run = run_text(s.dump());
+    expect_slips(run, 3, t, fmt::format("box {}", i));
+    EXPECT_NEAR(run.end("x"), (P + mu * Q) * std::pow(0.1 * t, 3) / (6 * m), 1e-7) << i;
+  }
+}
+
 // Friction holds it beyond the floor's, since it would turn against the ceiling; no step is short.
 TEST(BlockInAChannel, RestsWhereItWouldJam) {
   json s = scene_of(standing_block(-0.399, 0.798, 0.685, 7));
