@@ -42,8 +42,7 @@ std::vector<int> Participants::candidates(const ContactChanges& changes) const {
   for (const TouchingContact& c : at_.touching) {
     const double rest_speed = error_of_impact(c.contact) + scene_.scale.of(c.contact).rest_speed();
     const bool constrained = c.impulse > 0 && scene_.treatment(c.contact).rebound == Restitution::Rebound::constrained;
-    // A closed contact may have kept the rate that the steps left in it, or have lost it with others (rule 2).
-    const bool rests = std::abs(c.after) <= rest_speed || (c.was_closed && std::abs(c.after - c.before) <= rest_speed);
+    const bool rests = std::abs(c.after) <= rest_speed || c.rests_as_before(rest_speed);
     const bool released = contains(changes.released, c.contact) && c.impulse == 0 && !at_.shared_before[c.contact];
     if ((rests || constrained) && !released) all.push_back(c.contact);
   }

@@ -25,6 +25,7 @@
 // exactly: the difference is `course`.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "simulate/contact/contact_problem.hpp"
@@ -54,6 +55,8 @@ struct TouchingContact {
   double after = 0;                          // u+ [m/s]
   Tangential friction = Tangential::Zero();  // T [N s]
   Tangential slip_before = Tangential::Zero(), slip_after = Tangential::Zero();
+  // A closed contact that has kept the rate which the steps left in it.
+  bool rests_as_before(double rest_speed) const { return was_closed && std::abs(after - before) <= rest_speed; }
   double course = 0;  // [J] loss here minus the loss at the mean rates; the sum over the contacts of an impact is 0
   double energy_lost() const { return course + loss_at_mean_rates(); }
   double loss_at_mean_rates() const {

@@ -40,9 +40,11 @@ double Rocking::end_rates_of(std::size_t island, State& state, const BriefMotion
   const auto asked = [&](const TouchingContact& c) { return scene_.scale.island(c.contact) == island; };
   const auto rest_speed = [this](const TouchingContact& c) { return scene_.scale.of(c.contact).rest_speed(); };
   std::vector<bool> rests(touching_.size(), false);
-  for (std::size_t i = 0; i < touching_.size(); ++i)  // one whose slip stops may have a rate that steps left
-    rests[i] =
-        asked(touching_[i]) && (brief.falls[i] || brief.stops[i] || touching_[i].after <= rest_speed(touching_[i]));
+  for (std::size_t i = 0; i < touching_.size(); ++i) {  // one whose slip stops may have a rate that steps left
+    const TouchingContact& c = touching_[i];
+    const bool rested = c.after <= rest_speed(c) || c.rests_as_before(rest_speed(c));
+    rests[i] = asked(c) && (brief.falls[i] || brief.stops[i] || rested);
+  }
   double taken = 0;
   for (bool any = true; any;) {
     taken += take_rates(state, rests, brief.stops);
