@@ -16,7 +16,7 @@ complementarity::ContactSolution InstantDecision::decide(State& state, ContactCh
                                                          const std::vector<Participant>& nearby, int without) {
   bearings_.restart();
   by_forces_.restart();
-  at_.largest.assign(at_.modes.contacts.size(), 0);  // values of an earlier event would be unknown to a resumed run
+  at_.largest.assign(at_.modes.contacts.size(), 0);
   Drift drift(scene_, at_, participants_, problem_);
   do {
     gather({state, changes, jumped}, without);

@@ -40,6 +40,7 @@ void ContactModes::settle(State& state, const ContactChanges& changes, std::vect
 void ContactModes::begin(const State& state) {
   system_.move_to(state.t, state.q, state.v);
   at_.before = at_.modes = system_.modes();
+  at_.largest.assign(at_.modes.contacts.size(), 0);  // values of an earlier event would be unknown to a resumed run
   at_.shared_before.resize(system_.model().contacts.size());
   for (std::size_t i = 0; i < at_.shared_before.size(); ++i) at_.shared_before[i] = system_.sharing(int(i)).shared;
   carried_.keep(state, at_.before);
