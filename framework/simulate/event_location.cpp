@@ -118,7 +118,8 @@ void EventLocation::allow_for_friction_at_bounds() {
   for (int k = 0; k < int(functions_.size()); ++k)
     if (functions_[k].kind == Kind::hold && !functions_[k].at_ends &&
         now_[k].f <= std::max(critical_force * functions_[k].bound, functions_[k].little))
-      functions_[k].noise = std::max(friction_noise(system_, scale_, functions_[k].contact), functions_[k].little);
+      functions_[k].noise =
+          std::max({functions_[k].noise, friction_noise(system_, scale_, functions_[k].contact), functions_[k].little});
 }
 
 double EventLocation::longest_step(double swings) const {
