@@ -26,6 +26,9 @@ constexpr double round_off_of_resultants = 1e-14;
 // Of the resultants: contacts that press are too few to carry them if they miss more. Of the forces: springs would
 // press others if a slack is more negative.
 constexpr double not_carried = 1e-9;
+// Of the resultants: contacts too few to carry them carry those of a single instant. Then their equations miss as
+// little at the instant found for it, but more than this.
+constexpr double round_off_of_equations = 1e-11;
 constexpr double no_part_in_self_stress = 1e-12;
 // Of the largest force: sets that can spare as much are as good as any, those that lack as much have no forces.
 constexpr double much_to_spare = 0.25, least_spare = -1e6;
@@ -167,7 +170,7 @@ class Search {
     p.unload_slacks();
     Vec own;
     found.spare = std::min(much_to_spare * size_, spare_load(p.contacts, p.E, p.lambda, &own));
-    if (!(p.missed <= not_carried)) found.spare = std::min(found.spare, -p.missed * size_);
+    if (!(p.missed <= round_off_of_equations)) found.spare = std::min(found.spare, -p.missed * size_);
     if (found.spare >= 0) (void)have_forces(p, own);
     found.F = p.forces_of_all(own, E_.cols());
     return found;

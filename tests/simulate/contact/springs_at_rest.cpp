@@ -199,6 +199,36 @@ TEST(BoxBelowACeiling, IsResumedToTheSameBytesWhileItsSpringsChange) {
   EXPECT_EQ(whole.events, pieces.events);
 }
 
+// Of its springs only one presses at an instant before, which carries the load there and nowhere else. Linear programs
+// for all sets give the instant at which it moves.
+TEST(BodyBetweenPlanes, MovesWhereItsSpringsHoldItNoMore) {
+  struct At {
+    Eigen::Vector2d point, normal;
+  };
+  const At touched[] = {{{0.215, -0.136}, {0.570814378645, -0.821079134513}},
+                        {{0.049, 0.254}, {0, 1}},
+                        {{-0.451, -0.096}, {0, 1}},
+                        {{-0.142, 0.273}, {0, 1}},
+                        {{0.444, -0.088}, {-0.529030049287, -0.848603091529}}};
+  json body = {{"type", "rigid_body"}, {"mass", 2.4}, {"inertia", 0.24}, {"markers", {{"pulled", {-0.109, -0.295}}}}};
+  json s = scene_of(body);
+  s["gravity"] = {0, -9.81};
+  for (int i = 0; i < 5; ++i) {
+    const auto& [point, normal] = touched[i];
+    const std::string name = fmt::format("p{}", i);
+    s["bodies"]["b"]["markers"][name] = {point.x(), point.y()};
+    s["contacts"][name] = contact("b." + name, {point.x(), point.y()}, {normal.x(), normal.y()}, 0.2);
+  }
+  s["forces"]["pull"] = {{"type", "load"},
+                         {"on", "b.pulled"},
+                         {"force", {{"x", "=-26.559320769987973*t"}, {"y", "=33.656353265472205*t"}}}};
+  const Finished run = run_text(s.dump());
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  EXPECT_TRUE(run.result["warnings"].empty()) << run.result["warnings"].dump();
+  ASSERT_FALSE(run.of_kind("contact_open").empty());
+  EXPECT_NEAR(run.of_kind("contact_open").front().t, 0.175282, 1e-6);
+}
+
 // Friction holds it beyond the floor's, since it would turn against the ceiling; no step is short.
 TEST(BlockInAChannel, RestsWhereItWouldJam) {
   json s = scene_of(standing_block(-0.399, 0.798, 0.685, 7));
