@@ -171,7 +171,6 @@ class Search {
     Vec own;
     found.spare = std::min(much_to_spare * size_, spare_load(p.contacts, p.E, p.lambda, &own));
     if (!(p.missed <= round_off_of_equations)) found.spare = std::min(found.spare, -p.missed * size_);
-    if (found.spare >= 0) (void)have_forces(p, own);
     found.F = p.forces_of_all(own, E_.cols());
     return found;
   }
@@ -366,6 +365,13 @@ bool contains(const SpringSet& set, Spring spring) {
   return std::find(set.begin(), set.end(), spring) != set.end();
 }
 
+// Whether no other springs press than those of the set.
+bool press_only(const SpringSet& set, const SpringSet& press) {
+  for (std::size_t i = 0; i < set.size(); ++i)
+    if (press[i] == Spring::presses && set[i] != Spring::presses) return false;
+  return true;
+}
+
 // All sets count, unless nothing holds.
 Found best_of_all(const std::vector<SharingContact>& contacts, const Mat& E, const Mat& push, const Vec& lambda,
                   Vec& begin) {
@@ -380,30 +386,31 @@ Found best_of_all(const std::vector<SharingContact>& contacts, const Mat& E, con
 bool forces_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, double carried,
                        Vec& F) {
   const SpringSet set = set_of(contacts);
+  const bool decided = !contains(set, Spring::undecided);
   if (contains(set, Spring::locked)) return false;
-  const Mat push = E(Eigen::all, normals_of(contacts));
-  if (!contains(set, Spring::undecided)) {
-    const SpringEquations p = spring_equations(set, contacts, E, self_stress(push), lambda);
-    Vec own;
-    admissible_forces(p.contacts, p.E, p.lambda, own);
-    F = p.forces_of_all(own, E.cols());
-    return carries(E, F, lambda, carried);
-  }
   admissible_forces(contacts, E, lambda, F);
   if (!carries(E, F, lambda, carried)) return false;
+  const Mat push = E(Eigen::all, normals_of(contacts));
   if (!may_lock(contacts, push)) return true;
   const Vec springs = with_normals_of_springs(contacts, push, F);
-  if (in_cones(contacts, springs)) {
+  if (in_cones(contacts, springs) && (!decided || press_only(set, that_press(contacts, springs)))) {
     F = springs;
     return true;
   }
-  const Found found = Search(contacts, E, push, lambda).among_all(F);
-  if (found.F.size() == 0) return false;
-  if (!(found.spare >= -carried * largest(contacts, found.F))) return false;
-  if (found.equations.columns.empty()) return true;  // nothing is to be carried
+  SpringEquations p;
+  if (decided) {
+    p = spring_equations(set, contacts, E, self_stress(push), lambda);
+    const double none = -carried * lambda.norm();  // beyond its end: cheaper to see than that there are no forces
+    if (spare_load(p.contacts, p.E, p.lambda, nullptr, none) < none) return false;
+  } else {
+    Found found = Search(contacts, E, push, lambda).among_all(F);
+    if (found.F.size() == 0 || !(found.spare >= -carried * largest(contacts, found.F))) return false;
+    p = std::move(found.equations);
+  }
+  if (p.columns.empty()) return true;  // nothing is to be carried
   Vec own;
-  admissible_forces(found.equations.contacts, found.equations.E, found.equations.lambda, own);
-  F = found.equations.forces_of_all(own, E.cols());
+  admissible_forces(p.contacts, p.E, p.lambda, own);
+  F = p.forces_of_all(own, E.cols());
   return carries(E, F, lambda, carried);
 }
 
