@@ -101,7 +101,6 @@ void EventLocation::allow_for_round_off(const State& now) {
       const double largest = system_.largest_load(function.group, own_force_ ? now.lambda : lambda_);
       function.little = std::max(function.little, vanished_force * largest);
     }
-    if (function.kind == Kind::unload) function.little = std::max(function.little, critical_force * function.bound);
     const bool has_own_force = function.kind == Kind::idle || (function.kind == Kind::press && function.group < 0);
     if (has_own_force && now_[k].f <= function.little) function.noise = function.little;
   }
