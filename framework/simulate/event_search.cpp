@@ -91,8 +91,9 @@ bool EventLocation::hides(const State& now, double h, const State& next) {
   return (motions && hides_motion(now, h, next)) || (forces && hides_force(now, h, next));
 }
 
-// After an event that left all modes as they were. Modes do not include which contacts are idle; if others are idle
-// now, a force or spare load that was 0 at the event is a new one. A function of a spare load begins at `little`.
+// After an event that left all contacts closed, sticking and sliding as they were. If others are idle now, or other
+// springs press, a force or spare load that was 0 at the event is a new one. A function of a spare load begins at
+// `little`.
 bool EventLocation::shares_otherwise(int k) const {
   const EventFunction& function = functions_[k];
   if (function.kind == Kind::unload)

@@ -1,4 +1,4 @@
-// Forces of contacts at rest without a self-stress of their normals.
+// Forces of contacts at rest whose normals press as springs do, and which springs follow as loads grow.
 #include "complementarity/shares/springs_at_rest.hpp"
 
 #include <algorithm>

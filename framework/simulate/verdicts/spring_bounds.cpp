@@ -57,7 +57,7 @@ bool SpringBounds::bound_by_springs(const State& state, const std::vector<Partic
   if ((at_.modes.shared.empty() && !any_bounded) || !forces_.exist(state)) return false;
   if (!any_bounded) without_bounds_ = problem_.who;
   const std::map<int, model::Carried> carried = carried_by_springs(held);
-  if (rounds_ > most_rounds) return false;
+  if (rounds_ > most_rounds) return false;  // rest stays by other forces: the springs of these groups are locked
   const std::vector<double> largest = problem_.largest_in_island();
   if (!any_bounded) modes_so_bounded_.clear();
   const bool again = std::any_of(modes_so_bounded_.begin(), modes_so_bounded_.end(),
