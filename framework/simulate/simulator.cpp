@@ -266,6 +266,7 @@ void Simulator::accept(const Trial& trial) {
   if (location_.has_contacts()) {
     scale_.take_contacts(system_);
     location_.accept(trial.h, next_);
+    modes_.follow_loads(next_);
   }
   if (corrections_.empty()) ledger_.step(now_, next_);  // last: it leaves the system at the middle of the step
   std::swap(now_, next_);

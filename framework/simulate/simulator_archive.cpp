@@ -35,6 +35,13 @@ void archive_tangential(Archive& a, const std::string& name, model::ContactMode&
   numbers("rolled_from", mode.rolled_from);
 }
 
+void archive_push(Archive& a, const std::string& name, std::optional<double>& push) {
+  bool known = push.has_value();
+  double newtons = push.value_or(0);
+  a(name + "push_known", known), a(name + "push", newtons);
+  push = known ? std::optional(newtons) : std::nullopt;
+}
+
 // The directions of closed contacts.
 void archive_directions(Archive& a, const std::string& name, std::vector<model::ContactDirection>& directions,
                         const std::vector<model::ContactMode>& modes, int rows) {
@@ -136,6 +143,7 @@ void Simulator::archive_state(Archive& a) {
     a(name + "spring", spring);
     require(spring >= 0 && spring <= int(complementarity::Spring::locked), name + "spring");
     modes.contacts[i].spring = complementarity::Spring(spring);
+    archive_push(a, name, modes.contacts[i].push);
   }
   archive_shared(a, modes, dimension(model.world.space));
   if (modes != system_.modes()) system_.set_modes(modes);

@@ -9,6 +9,7 @@
 // interior point method (cone_program.hpp) finds F.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <trammel/types.hpp>
@@ -26,6 +27,7 @@ struct SharingContact {
   double given = 0;                    // N, where `normal` is -1
   bool carries = true;                 // false: spare_load does not unload it (a slack, or a contact that slides)
   Spring spring = Spring::undecided;   // springs_at_rest.hpp
+  std::optional<double> push = {};     // complementarity/spring_motion.hpp: known where contacts can be wedged in
 };
 
 // The program of E F = lambda and the cones for x = (N, T/c), contact after contact, that minimises |F|^2 / 2; the last

@@ -1,6 +1,7 @@
 // What the normal of a contact at rest does, seen as a spring (complementarity/shares/springs_at_rest.hpp).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 namespace trammel::complementarity {
@@ -13,5 +14,11 @@ enum class Spring {
   locked      // no springs hold its group, which rests by other forces
 };
 using SpringSet = std::vector<Spring>;  // by contact
+
+// Which springs hold, and where contacts can be wedged in, how far they are pushed (complementarity/spring_motion.hpp).
+struct SpringsThatHold {
+  SpringSet set;
+  std::vector<std::optional<double>> push;  // [N] by contact
+};
 
 }  // namespace trammel::complementarity

@@ -365,6 +365,25 @@ bool contains(const SpringSet& set, Spring spring) {
   return std::find(set.begin(), set.end(), spring) != set.end();
 }
 
+SpringsThatHold not_wedged_in(const SpringSet& set) {
+  return {set, std::vector<std::optional<double>>(set.size())};
+}
+
+// In the least forces of the set: where contacts rest without having been wedged in. Beside contacts that slide nothing
+// is known.
+std::vector<std::optional<double>> push_of(const SpringEquations& p, const std::vector<SharingContact>& contacts,
+                                           Index columns) {
+  std::vector<std::optional<double>> push(contacts.size());
+  const auto slides = [](const SharingContact& c) { return !c.carries; };
+  if (std::any_of(contacts.begin(), contacts.end(), slides)) return push;
+  Vec own;
+  admissible_forces(p.contacts, p.E, p.lambda, own);
+  const Vec F = p.forces_of_all(own, columns);
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (contacts[i].normal >= 0) push[i] = p.slack_of[i] >= 0 ? -own[p.slack_of[i]] : F[contacts[i].normal];
+  return push;
+}
+
 // Whether no other springs press than those of the set.
 bool press_only(const SpringSet& set, const SpringSet& press) {
   for (std::size_t i = 0; i < set.size(); ++i)
@@ -430,21 +449,23 @@ double spare_load_as_springs(const std::vector<SharingContact>& contacts, const 
   return any ? found.spare : -lambda.norm();
 }
 
-std::optional<std::vector<Spring>> find_springs(const std::vector<SharingContact>& contacts, const Mat& E,
-                                                const Mat& push, const Vec& lambda, double round_off) {
+std::optional<SpringsThatHold> find_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Mat& push,
+                                            const Vec& lambda, double round_off) {
   const SpringSet before = set_of(contacts), any(contacts.size(), Spring::undecided);
   if (!may_lock(contacts, push)) {
-    if (spare_load(contacts, E, lambda) >= -round_off) return any;
+    if (spare_load(contacts, E, lambda) >= -round_off) return not_wedged_in(any);
     return std::nullopt;
   }
   Found found;
   if (!contains(before, Spring::undecided) && !contains(before, Spring::locked))
     found = Search(contacts, E, push, lambda).among_reached(before, round_off);
+  const bool wedged_in = may_wedge(contacts, E);
   Vec begin;
-  if (found.F.size() == 0 || (!(found.spare >= -round_off) && !may_wedge(contacts, E)))
+  if (found.F.size() == 0 || (!(found.spare >= -round_off) && !wedged_in))
     found = best_of_all(contacts, E, push, lambda, begin);
   if (found.F.size() == 0 || !(found.spare >= -round_off)) return std::nullopt;
-  return found.set;
+  if (!wedged_in) return not_wedged_in(found.set);
+  return SpringsThatHold{found.set, push_of(found.equations, contacts, E.cols())};
 }
 
 }  // namespace trammel::complementarity

@@ -22,7 +22,8 @@
 // could be wedged in at any time. While loads change little by little, springs do not wedge it in: they pass from one
 // set to another only by forces that belong to both, those of the one set where contacts that change have neither a
 // force nor a slack. So the set that held before (SharingContact::spring) holds as long as it can, and then only sets
-// that are reached from it in this way count (`find_springs`). Where nothing can be wedged in, all sets do.
+// that are reached from it in this way count (`find_springs`). Where nothing can be wedged in, all sets do. Otherwise
+// how far springs are pushed follows the loads (complementarity/spring_motion.hpp).
 #pragma once
 
 #include <optional>
@@ -48,7 +49,7 @@ double spare_load_as_springs(const std::vector<SharingContact>& contacts, const 
 // The set of springs that holds: that of `contacts`, which has held so far, or where it does no more, one that follows;
 // undecided where no self-stress can hold anything. If none has held so far, or the loads have jumped, all sets count.
 // None holds: nothing. `round_off` [N]: a spare load may be as negative.
-std::optional<SpringSet> find_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Mat& push,
-                                      const Vec& lambda, double round_off);
+std::optional<SpringsThatHold> find_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Mat& push,
+                                            const Vec& lambda, double round_off);
 
 }  // namespace trammel::complementarity

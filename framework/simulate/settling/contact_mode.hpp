@@ -111,7 +111,8 @@
 //     move as stiff compliant ones. Where this comes to no end (a stack that has locked while it slid), rest stays, by
 //     any forces. Rule 12 decides groups in which something slides and a contact at rest is at its bound. Which springs
 //     press is part of the modes: while loads change little by little they hold as long as they can, and then pass to
-//     others without an event (renew_springs), but not to such as would be wedged in.
+//     others without an event (renew_springs), but not to such as would be wedged in. Springs of contacts that
+//     can be wedged in follow the loads step by step (complementarity/spring_motion), and let go where they cannot.
 //
 // `rebound: constrained` makes candidates of contacts that separate at e u-. `restart: carry` leaves a as it was and
 // starts the multipliers of new rows from 0. `onset: next_step` only changes when an event is seen.
@@ -155,6 +156,7 @@ class ContactModes {
   // Between events (present_contacts.hpp).
   [[nodiscard]] bool renew_bases(State& state) { return simulate::renew_bases(scene_, state); }
   [[nodiscard]] bool renew_springs(const State& state) { return simulate::renew_springs(scene_, state); }
+  void follow_loads(const State& state) { simulate::follow_loads(scene_, state); }
   double distance_from_critical(const State& state) { return simulate::distance_from_critical(scene_, state); }
 
  private:

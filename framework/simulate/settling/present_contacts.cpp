@@ -31,6 +31,11 @@ ContactProblem present_problem(const ContactScene& scene, const State& state) {
   return problem;
 }
 
+bool same_springs(const std::vector<model::ContactMode>& one, const std::vector<model::ContactMode>& other) {
+  const auto same = [](const model::ContactMode& a, const model::ContactMode& b) { return a.spring == b.spring; };
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(), same);
+}
+
 }  // namespace
 
 bool any_closed(const model::AssembledSystem& system) {
@@ -74,9 +79,25 @@ bool renew_springs(const ContactScene& scene, const State& state) {
     const double round_off = round_off_of_loads * scene.system.largest_load(group, lambda);
     if (!take_springs(scene.system.find_springs(group, lambda, round_off), modes)) return false;
   }
-  if (modes == scene.system.modes()) return false;
+  if (same_springs(modes.contacts, scene.system.modes().contacts)) return false;
   scene.system.set_modes(modes);
   return true;
+}
+
+void follow_loads(const ContactScene& scene, const State& state) {
+  model::Modes modes = scene.system.modes();
+  const auto wedged_in = [](const model::ContactMode& mode) { return mode.push.has_value(); };
+  if (std::none_of(modes.contacts.begin(), modes.contacts.end(), wedged_in)) return;
+  Vec a, lambda;
+  scene.system.move_to(state.t, state.q, state.v);
+  scene.system.accelerate({}, a, lambda);
+  for (int group = 0; group < int(modes.shared.size()); ++group) {
+    if (has_sliding(modes.shared[std::size_t(group)])) continue;
+    for (const auto& [contact, spring, push] : scene.system.find_springs(group, lambda, 0))
+      if (push && wedged_in(modes.contacts[std::size_t(contact)])) modes.contacts[std::size_t(contact)].push = push;
+  }
+  scene.system.set_modes(modes);
+  scene.system.move_to(state.t, state.q, state.v);
 }
 
 double longest_step_in_contact(model::AssembledSystem& system, const State& state) {

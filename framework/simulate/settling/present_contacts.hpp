@@ -22,5 +22,7 @@ double distance_from_critical(const ContactScene& scene, const State& state);
 // Modes stay as they are, and nothing moves: other springs hold contacts at rest (rule 15). False: modes are to be
 // decided, since none do.
 [[nodiscard]] bool renew_springs(const ContactScene& scene, const State& state);
+// After a step: springs of contacts that can be wedged in follow the loads at its end (rule 15).
+void follow_loads(const ContactScene& scene, const State& state);
 
 }  // namespace trammel::simulate

@@ -49,7 +49,10 @@ void keep_others(const model::Modes& decided, std::vector<bool> asked, model::Mo
 }
 
 bool take_springs(const std::vector<model::ContactSpring>& found, model::Modes& modes) {
-  for (const auto& [contact, spring] : found) modes.contacts[std::size_t(contact)].spring = spring;
+  for (const auto& [contact, spring, push] : found) {
+    modes.contacts[std::size_t(contact)].spring = spring;
+    modes.contacts[std::size_t(contact)].push = push;
+  }
   return found.empty() || found.front().spring != complementarity::Spring::locked;
 }
 

@@ -23,11 +23,13 @@ bool same_modes(const model::Modes& one, const model::Modes& other) {
 
 // Of the contacts that share; the others have none.
 void SpringBounds::take_springs_before() {
-  for (model::ContactMode& mode : at_.modes.contacts) mode.spring = complementarity::Spring::undecided;
-  const auto take = [this](const model::ContactDirection& d) {
-    at_.modes.contacts[std::size_t(d.contact)].spring = at_.before.contacts[std::size_t(d.contact)].spring;
-  };
+  for (model::ContactMode& mode : at_.modes.contacts) mode.spring = complementarity::Spring::undecided, mode.push = {};
   for (const model::SharedRows& group : at_.modes.shared) {
+    const auto take = [&](const model::ContactDirection& d) {
+      const model::ContactMode& before = at_.before.contacts[std::size_t(d.contact)];
+      at_.modes.contacts[std::size_t(d.contact)].spring = before.spring;
+      if (!has_sliding(group)) at_.modes.contacts[std::size_t(d.contact)].push = before.push;
+    };
     std::for_each(group.basis.begin(), group.basis.end(), take);
     std::for_each(group.implied.begin(), group.implied.end(), take);
   }

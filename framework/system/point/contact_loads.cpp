@@ -6,6 +6,8 @@
 
 #include <trammel/decompositions.hpp>
 
+#include "complementarity/spring_motion.hpp"
+
 namespace trammel::model {
 namespace {
 
@@ -114,6 +116,7 @@ std::vector<complementarity::SharingContact> ContactLoads::sharing(const Group& 
     contact.coefficient = m.bounds.coefficient;
     contact.given = m.bounds.given;
     contact.spring = modes_->contacts[std::size_t(m.contact)].spring;
+    contact.push = modes_->contacts[std::size_t(m.contact)].push;
     for (const Eigen::Index k : {m.columns[1], m.columns[2]})
       if (k >= 0) contact.tangents.push_back(k);
   }
@@ -222,17 +225,28 @@ ContactLoads::AsSprings ContactLoads::as_springs(int group, Sharing all) const {
   AsSprings result;
   result.spare_load =
       complementarity::spare_load_as_springs(all.contacts, all.E, push(group, all), resultants, &result.forces);
+  const auto motion = complementarity::follow_loads(all.contacts, all.E, resultants);
+  if (motion && !motion->carries(resultants)) {
+    result.spare_load = std::min(result.spare_load, -motion->missed);
+    result.forces = motion->F;
+  }
   result.contacts = std::move(all.contacts);
   return result;
 }
 
 std::vector<ContactSpring> ContactLoads::springs_of(int group, const Sharing& all, double round_off) const {
   const Vec resultants = all.E * groups_[std::size_t(group)].forces(all.directions);
-  const auto found = complementarity::find_springs(all.contacts, all.E, push(group, all), resultants, round_off);
+  const auto motion = complementarity::follow_loads(all.contacts, all.E, resultants);
+  std::optional<complementarity::SpringsThatHold> found;
+  if (!motion)
+    found = complementarity::find_springs(all.contacts, all.E, push(group, all), resultants, round_off);
+  else if (motion->carries(resultants))
+    found = motion->springs();
   const std::vector<int> who = contacts_of(group);
   std::vector<ContactSpring> springs;
   for (std::size_t i = 0; i < all.contacts.size(); ++i)
-    springs.push_back({who[i], found ? (*found)[i] : complementarity::Spring::locked});
+    springs.push_back({who[i], found ? found->set[i] : complementarity::Spring::locked,
+                       found && !slides(group) ? found->push[i] : std::nullopt});
   return springs;
 }
 

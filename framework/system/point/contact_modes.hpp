@@ -1,6 +1,7 @@
 // The discrete state of contacts: which of them are closed, stick or slide, and which of their rows are in g.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,6 +26,7 @@ struct ContactMode {
   Eigen::Matrix3d rolled_from = Eigen::Matrix3d::Identity();
   // In a group of contacts that share rows: what it does as a spring.
   complementarity::Spring spring = complementarity::Spring::undecided;
+  std::optional<double> push = {};  // [N] where it can be wedged in (complementarity/spring_motion.hpp)
 
   bool operator==(const ContactMode&) const = default;
 };
@@ -59,6 +61,7 @@ inline Eigen::MatrixXd SharedRows::resultants() const {
 struct ContactSpring {
   int contact;
   complementarity::Spring spring;
+  std::optional<double> push;
 };
 
 // What a contact carries [N].

@@ -295,5 +295,50 @@ TEST(TableOfTenFeet, SlipsWhereFrictionUnderItsSpringsEnds) {
   EXPECT_NEAR(events.front().t, held, 2 * let_go * held);
 }
 
+// A box between floor and ceiling that turns a little, slips against its friction and is wedged in. Its loads turn
+// back:
+// other forces would hold it, but stiff springs do not come to have them.
+TEST(BoxBetweenFloorAndCeiling, LetsGoAsOnStiffSpringsWhereItsLoadsTurnBack) {
+  const double w = 0.28118530919, h = 0.75412142073, mu_floor = 0.8, mu_ceiling = 0.5;
+  json s = scene_of(
+      {{"type", "rigid_body"},
+       {"mass", 2.59537},
+       {"inertia", 0.560397},
+       {"position", {0, 0}},
+       {"markers",
+        {{"p0", {-w, -h}}, {"p1", {w, -h}}, {"p2", {-w, h}}, {"p3", {w, h}}, {"hand", {-0.231589, -0.607856}}}}});
+  s["gravity"] = {0, -9.81};
+  s["simulate"]["until"] = 0.83;
+  s["record"]["every"] = 0.02;
+  s["forces"]["hand"] = {
+      {"type", "load"},
+      {"on", "b.hand"},
+      {"force",
+       {{"x", "=-12.6011*sin(6.463*t)+21.1819*sin(16.288*t)"}, {"y", "=2.24326*min(1,3*t)-48.9577*sin(4.4901*t)"}}}};
+  for (const auto& [name, y] : {std::pair{"p0", -h}, {"p1", -h}, {"p2", h}, {"p3", h}})
+    s["contacts"][name] =
+        contact(fmt::format("b.{}", name), {0, y}, {0, y < 0 ? 1 : -1}, y < 0 ? mu_floor : mu_ceiling);
+  const scene::Scene scene = scene::Scene::parse(s.dump(), "test.json", {});
+  const Finished rigid = run_text(s.dump());
+  ASSERT_TRUE(rigid.done()) << rigid.report.reason;
+  EXPECT_TRUE(rigid.result["warnings"].empty()) << rigid.result["warnings"].dump();
+  for (auto& [name, c] : s["contacts"].items()) {
+    c.erase("restitution");
+    c.update({{"type", "continuous_force"},
+              {"stiffness", 1e7},
+              {"exponent", 1},
+              {"damping", "hunt_crossley"},
+              {"restitution", 0}});
+  }
+  const Finished stiff = run_text(s.dump());
+  ASSERT_TRUE(stiff.done()) << stiff.report.reason;
+  // About a hundred newtons on springs of 1e7 N/m, at either end of a box that is three times as high as wide.
+  EXPECT_NEAR(rigid.end("x"), stiff.end("x"), 3e-5);
+  EXPECT_GT(rigid.end("x"), 6e-3);
+  const Logs whole = run_in_pieces(scene, 1LL << 60), pieces = run_in_pieces(scene, 1);
+  EXPECT_EQ(whole.series, pieces.series);
+  EXPECT_EQ(whole.events, pieces.events);
+}
+
 }  // namespace
 }  // namespace trammel::test

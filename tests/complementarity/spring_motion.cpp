@@ -1,0 +1,102 @@
+// Contacts that can be wedged in follow their loads as stiff springs do.
+#include "complementarity/spring_motion.hpp"
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/between.hpp"
+
+namespace trammel::complementarity {
+namespace {
+
+using test::between;
+
+// A box of 2 by 2 a between floor and ceiling that touch its corners. Columns: N and T of floor left and right, ceiling
+// left and right; rows: force along the floor, force up, moment about the middle.
+struct Box {
+  std::vector<SharingContact> contacts;
+  Mat E = Mat::Zero(3, 8);
+  Box(double a, double mu_floor, double mu_ceiling) {
+    for (int i = 0; i < 4; ++i) {
+      const double x = i % 2 == 0 ? -1 : 1, y = i < 2 ? -a : a, up = i < 2 ? 1 : -1;
+      E.col(2 * i) << 0, up, x * up;
+      E.col(2 * i + 1) << 1, 0, -y;
+      contacts.push_back({2 * i, {2 * i + 1}, i < 2 ? mu_floor : mu_ceiling});
+      contacts.back().push = i < 2 ? 5 : 0;
+    }
+  }
+  void take(const SpringMotion& motion) {
+    for (std::size_t i = 0; i < 4; ++i) contacts[i].push = motion.push[i];
+  }
+};
+
+// Up to a part of the forces: what the rounds leave.
+constexpr double accurate = 1e-7;
+
+TEST(SpringMotion, GivesForcesOfSpringsInBalanceAndInTheirCones) {
+  std::mt19937 random(1);
+  int steps = 0, pressed_by_both = 0;
+  for (int i = 0; i < 100; ++i) {
+    Box box(between(random, 0.3, 1), between(random, 0.2, 0.8), between(random, 0.2, 0.8));
+    const Vec first{{0, 10, 0}}, swing{{between(random, -6, 6), between(random, -4, 0), between(random, -12, 12)}};
+    for (double t = 0.05; t < 6; t += 0.05, ++steps) {
+      const Vec lambda = first + std::sin(t) * swing;
+      const auto motion = follow_loads(box.contacts, box.E, lambda);
+      if (!motion || !motion->carries(lambda)) break;  // it has let go
+      EXPECT_LE((box.E * motion->F - lambda).norm(), accurate * lambda.norm());
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double N = motion->F[Eigen::Index(2 * k)], T = motion->F[Eigen::Index(2 * k + 1)];
+        EXPECT_NEAR(N, std::max(0.0, *motion->push[k]), accurate * 20);
+        EXPECT_LE(std::abs(T), box.contacts[k].coefficient * N + accurate * 20);
+      }
+      pressed_by_both += *motion->push[0] + *motion->push[1] > 0.1 && *motion->push[2] + *motion->push[3] > 0.1;
+      box.take(*motion);
+    }
+  }
+  EXPECT_GT(steps, 1000);
+  EXPECT_GT(pressed_by_both, 100);
+}
+
+// Its ends press on opposite sides once a moment exceeds that of its weight; friction then holds what springs gave, and
+// a load that turns back finds the box wedged in: the way back is not the way there.
+TEST(SpringMotion, DependsOnTheWayOfTheLoads) {
+  Box box(0.5, 0.6, 0.6);
+  const auto follow = [&box](double moment) {
+    const auto motion = follow_loads(box.contacts, box.E, Vec{{0, 10, moment}});
+    ASSERT_TRUE(motion);
+    ASSERT_LE(motion->missed, accurate * 10);
+    box.take(*motion);
+  };
+  for (double moment = 1; moment <= 20; moment += 1) follow(moment);
+  const double pressed_by = *box.contacts[2].push;
+  for (double moment = 19; moment >= 12; moment -= 1) follow(moment);
+  Box straight(0.5, 0.6, 0.6);
+  const auto there = follow_loads(straight.contacts, straight.E, Vec{{0, 10, 12}});
+  ASSERT_TRUE(there);
+  EXPECT_GT(pressed_by, 1);
+  EXPECT_GT(*box.contacts[2].push, *there->push[2] + 0.1);
+}
+
+// It is pushed along the floor, from where no spring pulls it back.
+TEST(SpringMotion, EndsWhereFrictionIsUsedUp) {
+  const Box box(0.5, 0.4, 0.4);
+  const auto carries = [&box](double push) {
+    const Vec lambda{{push, 10, 0.5 * push}};  // at the floor's height
+    const auto motion = follow_loads(box.contacts, box.E, lambda);
+    return motion && motion->carries(lambda);
+  };
+  EXPECT_TRUE(carries(4 * (1 - 1e-6)));
+  EXPECT_FALSE(carries(4 * (1 + 1e-6)));
+}
+
+TEST(SpringMotion, SaysNothingOfSpringsThatAreNotKnown) {
+  Box box(0.5, 0.4, 0.4);
+  box.contacts[1].push.reset();
+  EXPECT_FALSE(follow_loads(box.contacts, box.E, Vec{{0, 10, 0}}));
+}
+
+}  // namespace
+}  // namespace trammel::complementarity
