@@ -14,8 +14,11 @@ constexpr int most_rounds_of_yielding = 8;
 // Of the resultants: more is a loss of balance, less is what the rounds leave. The loads exceed it within an instant.
 constexpr double lost_balance = 1e-8, no_loss = 1e-12;
 
-bool all_known(const std::vector<SharingContact>& contacts) {
-  return std::all_of(contacts.begin(), contacts.end(), [](const SharingContact& c) { return c.normal < 0 || c.push; });
+// Of all springs, of which there is one at least.
+bool push_is_known(const std::vector<SharingContact>& contacts) {
+  const auto unknown = [](const SharingContact& c) { return c.normal >= 0 && !c.push; };
+  return std::none_of(contacts.begin(), contacts.end(), unknown) &&
+         std::any_of(contacts.begin(), contacts.end(), [](const SharingContact& c) { return c.normal >= 0; });
 }
 
 ContactPoint point_of(const SharingContact& c) {
@@ -45,7 +48,7 @@ SpringsThatHold SpringMotion::springs() const {
 }
 
 std::optional<SpringMotion> follow_loads(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda) {
-  if (!all_known(contacts) || E.cols() == 0) return std::nullopt;
+  if (!push_is_known(contacts)) return std::nullopt;
   const double s = yields_more * double(E.cols()) / E.squaredNorm();
   Mat A = s * E.transpose() * E;
   Vec p = Vec::Zero(E.cols()), r = lambda, F, w;

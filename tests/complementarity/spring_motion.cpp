@@ -98,5 +98,10 @@ TEST(SpringMotion, SaysNothingOfSpringsThatAreNotKnown) {
   EXPECT_FALSE(follow_loads(box.contacts, box.E, Vec{{0, 10, 0}}));
 }
 
+TEST(SpringMotion, IsNoneOfContactsWhoseNormalForcesAreGiven) {
+  const std::vector<SharingContact> compliant = {{-1, {0}, 0.5, 10}, {-1, {1}, 0.5, 10}};
+  EXPECT_FALSE(follow_loads(compliant, Mat::Ones(1, 2), Vec{{4}}));
+}
+
 }  // namespace
 }  // namespace trammel::complementarity

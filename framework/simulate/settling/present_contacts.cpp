@@ -85,9 +85,10 @@ bool renew_springs(const ContactScene& scene, const State& state) {
 }
 
 void follow_loads(const ContactScene& scene, const State& state) {
-  model::Modes modes = scene.system.modes();
   const auto wedged_in = [](const model::ContactMode& mode) { return mode.push.has_value(); };
-  if (std::none_of(modes.contacts.begin(), modes.contacts.end(), wedged_in)) return;
+  const std::vector<model::ContactMode>& present = scene.system.modes().contacts;
+  if (std::none_of(present.begin(), present.end(), wedged_in)) return;
+  model::Modes modes = scene.system.modes();
   Vec a, lambda;
   scene.system.move_to(state.t, state.q, state.v);
   scene.system.accelerate({}, a, lambda);
