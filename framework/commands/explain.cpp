@@ -9,11 +9,11 @@
 #include "diagnose/redundancy.hpp"
 #include "plugin/breadcrumb.hpp"
 #include "run/run_failed.hpp"
+#include "simulate/event/trial_step.hpp"
 #include "simulate/simulator.hpp"
 #include "simulate/start/blame.hpp"
 #include "simulate/start/crash_witness.hpp"
 #include "simulate/start/setup.hpp"
-#include "simulate/trial_step.hpp"
 
 namespace trammel::simulate {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "linear/dense/eps.hpp"
 #include "run/run_failed.hpp"
+#include "simulate/event/trial_step.hpp"
 #include "simulate/start/blame.hpp"
-#include "simulate/trial_step.hpp"
 #include "system/point/locks_itself.hpp"
 
 namespace trammel::simulate {

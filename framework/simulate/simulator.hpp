@@ -24,7 +24,7 @@
 #include "run/statistics.hpp"
 #include "simulate/contact/coarse_thresholds.hpp"
 #include "simulate/contact/contact_audit.hpp"
-#include "simulate/event_location.hpp"
+#include "simulate/event/event_location.hpp"
 #include "simulate/refinement.hpp"
 #include "simulate/results/checkpoint.hpp"
 #include "simulate/results/ledger.hpp"

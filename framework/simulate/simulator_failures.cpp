@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "run/run_failed.hpp"
+#include "simulate/event/trial_step.hpp"
 #include "simulate/simulator.hpp"
 #include "simulate/start/blame.hpp"
-#include "simulate/trial_step.hpp"
 
 namespace trammel::simulate {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "simulate/contact/force_noise.hpp"
-#include "simulate/event_location.hpp"
+#include "simulate/event/event_location.hpp"
 
 namespace trammel::simulate {
 namespace {

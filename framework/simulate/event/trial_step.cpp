@@ -1,4 +1,4 @@
-#include "simulate/trial_step.hpp"
+#include "simulate/event/trial_step.hpp"
 
 #include <cmath>
 

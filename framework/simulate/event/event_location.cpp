@@ -1,4 +1,4 @@
-#include "simulate/event_location.hpp"
+#include "simulate/event/event_location.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include "linear/dense/eps.hpp"
 #include "simulate/contact/force_noise.hpp"
-#include "simulate/root_bracket.hpp"
-#include "simulate/trial_step.hpp"
+#include "simulate/event/root_bracket.hpp"
+#include "simulate/event/trial_step.hpp"
 
 namespace trammel::simulate {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "simulate/contact/force_noise.hpp"
 #include "simulate/contact/signed_loads.hpp"
-#include "simulate/event_location.hpp"
+#include "simulate/event/event_location.hpp"
 
 namespace trammel::simulate {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulate/root_bracket.hpp"
+#include "simulate/event/root_bracket.hpp"
 
 #include <gtest/gtest.h>
 

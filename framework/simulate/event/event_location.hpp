@@ -49,7 +49,7 @@
 
 #include "linear/dense/block_signs.hpp"
 #include "run/contact_scale.hpp"
-#include "simulate/root_bracket.hpp"
+#include "simulate/event/root_bracket.hpp"
 #include "simulate/settling/contact_mode.hpp"
 #include "system/between_states.hpp"
 
