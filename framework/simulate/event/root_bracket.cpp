@@ -11,9 +11,7 @@ namespace trammel::numerics {
 namespace {
 
 constexpr std::uintmax_t most_evaluations = 200;  // bisection to `resolution`, 2 eps of the time or more: about 52
-constexpr int most_trials = 200;                  // likewise, each with a cubic of at most `most_iterations`
-constexpr int most_iterations = 100;
-constexpr double narrowest = 1e-16;  // of the bracket that the cubic lies in: below round-off, except near 0
+constexpr int most_trials = 200;                  // likewise
 
 }  // namespace
 
@@ -25,33 +23,15 @@ Interval narrow(const std::function<double(double)>& f, const RootBracket& brack
   return {low, high};
 }
 
-// By Newton's method and bisection.
-double crossing_of_cubic(const FallingBracket& b) {
-  const double h = b.high - b.low, d = (b.at_high.f - b.at_low.f) / h, S = b.at_low.slope, E = b.at_high.slope;
-  const auto at = [&](double x) {
-    const double curve = 3 * d - 2 * S - E, twist = S + E - 2 * d;
-    return ValueAndSlope{b.at_low.f + h * x * (S + x * (curve + x * twist)), h * (S + x * (2 * curve + 3 * x * twist))};
-  };
-  double low = 0, high = 1, x = b.at_low.f / (b.at_low.f - b.at_high.f);
-  for (int i = 0; i < most_iterations && high - low > narrowest; ++i) {
-    const ValueAndSlope there = at(x);
-    (there.f > 0 ? low : high) = x;
-    const double newton = x - there.f / there.slope;
-    if (newton == x) break;
-    x = newton > low && newton < high ? newton : 0.5 * (low + high);
-  }
-  return b.low + h * x;
-}
-
 // Each trial is placed a little after the crossing of the cubic, as far as round-off reaches, so that it becomes the
 // new upper end.
-double crossing(const std::function<ValueAndSlope(double)>& f, FallingBracket b, double resolution, double round_off) {
+double crossing(const std::function<ValueAndSlope(double)>& f, Cubic b, double resolution, double round_off) {
   bool bisect = false;
   for (int i = 0; i < most_trials && b.high - b.low > resolution; ++i) {
     if (b.at_high.f >= -round_off || -b.at_high.f <= resolution * -b.at_high.slope) break;
     const double slope = std::abs(b.at_low.f <= -b.at_high.f ? b.at_low.slope : b.at_high.slope);
     const double after = slope > 0 ? std::max(0.5 * resolution, 0.5 * round_off / slope) : 0.5 * resolution;
-    double x = bisect ? 0.5 * (b.low + b.high) : crossing_of_cubic(b) + after;
+    double x = bisect ? 0.5 * (b.low + b.high) : b.crossing() + after;
     if (!(x > b.low && x < b.high)) x = 0.5 * (b.low + b.high);
     const ValueAndSlope there = f(x);
     const double nearest = std::min(b.at_low.f, -b.at_high.f);

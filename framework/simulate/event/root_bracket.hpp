@@ -7,6 +7,8 @@
 
 #include <functional>
 
+#include "simulate/event/cubic.hpp"
+
 namespace trammel::numerics {
 
 // f(low) and f(high) have opposite signs, or one of them is zero.
@@ -21,18 +23,8 @@ struct Interval {
 // Narrows the bracket until it is no wider than `resolution`.
 Interval narrow(const std::function<double(double)>& f, const RootBracket& bracket, double resolution);
 
-struct ValueAndSlope {
-  double f, slope;
-};
-// A bracket from f > 0 at `low` to f < 0 at `high`.
-struct FallingBracket {
-  double low, high;
-  ValueAndSlope at_low, at_high;
-};
-// Where the cubic through both ends crosses 0.
-double crossing_of_cubic(const FallingBracket& bracket);
-// Returns a place at most `resolution` after the crossing, or one so near that 0 >= f >= -round_off.
-double crossing(const std::function<ValueAndSlope(double)>& f, FallingBracket bracket, double resolution,
-                double round_off);
+// From f > 0 at the low end of the bracket to f < 0 at the high one. Returns a place at most `resolution` after the
+// crossing, or one so near that 0 >= f >= -round_off.
+double crossing(const std::function<ValueAndSlope(double)>& f, Cubic bracket, double resolution, double round_off);
 
 }  // namespace trammel::numerics

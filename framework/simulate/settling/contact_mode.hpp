@@ -57,7 +57,7 @@
 //     since it would turn the friction of a contact that begins to slide. It turns slow slips, so these have their
 //     directions afterwards.
 //  8. Rigid contacts may have no solution with finite forces (Painleve's rod), or forces that grow beyond all bounds as
-//     that state is approached (event_location.hpp rejects controlled steps past it). Then an impact without collision
+//     that state is approached (simulate/event refuses controlled steps past it). Then an impact without collision
 //     stops or turns the slip: rule 1 with nothing approaching, in which dependent contacts, none of which could part
 //     alone, yield a little. Where slips differ by orders of magnitude (at the corner and at the foot of a block that
 //     turns by a clearance), it ends the slowest ones, and faster ones go on; where forces are still not finite,

@@ -9,8 +9,8 @@ bool any_closed(const model::AssembledSystem& system);  // bearings of joints, w
 bool any_rigid_closed(const model::AssembledSystem& system);
 // [s] Longest controlled step that cannot pass over a double zero of a slip velocity: 0.45 of the shortest period in
 // which a closed contact with set-valued friction swings back after a blow. Below half of the period a swing turns at
-// most once within a step, so two zeros in it show in the slopes at its ends. (EventLocation::dips finds the zeros of
-// c + cos in every phase up to 0.45, and misses the shallowest from 0.5 on.)
+// most once within a step, so two zeros in it show in the slopes at its ends. (`find_dip` of event_search finds the
+// zeros of c + cos in every phase up to 0.45, and misses the shallowest from 0.5 on.)
 double longest_step_in_contact(model::AssembledSystem& system, const State& state);
 // How near the forces of sliding contacts are to having no solution: the least pivot of their equations relative to
 // that without friction; 0 at Painleve's critical state, 1 far from it.

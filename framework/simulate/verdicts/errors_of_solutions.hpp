@@ -10,7 +10,7 @@ inline constexpr double undecided = 10;
 // Relative to the largest acceleration in the island, which may cancel in the others.
 inline constexpr double error_of_accelerations = 1e-12;
 // Of the largest load of a group: a spare load may be negative by this round-off. An event shows that more is missing
-// (EventLocation's critical_force).
+// (critical_force in event_function.hpp).
 inline constexpr double round_off_of_loads = 5e-10;
 
 }  // namespace trammel::simulate

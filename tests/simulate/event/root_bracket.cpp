@@ -39,22 +39,6 @@ TEST(RootBracket, ReturnsAnEndThatIsTheRootAlone) {
   }
 }
 
-// -size (x - zero) (1 + bend (x - middle)^2) has no other zero.
-TEST(CrossingOfCubic, IsTheZeroOfTheCubic) {
-  for (const double zero : {2.001, 2.3, 3.5, 4.9})
-    for (const double middle : {1.0, 2.5, 3.5, 6.0})
-      for (const double bend : {0.0, 0.1, 1.0, 1e3})
-        for (const double size : {1e-4, 1.0, 1e4}) {
-          const auto f = [&](double x) {
-            const double from = x - middle;
-            return ValueAndSlope{-size * (x - zero) * (1 + bend * from * from),
-                                 -size * (1 + bend * from * from + 2 * bend * (x - zero) * from)};
-          };
-          EXPECT_NEAR(crossing_of_cubic({2, 5, f(2), f(5)}), zero, 1e-14 * (1 + bend))
-              << middle << " " << bend << " " << size;
-        }
-}
-
 // Functions that fall from f > 0 at 0 to f < 0 at 1, and how many evaluations their zero takes at most; bisection takes
 // 47.
 struct Falling {
