@@ -17,6 +17,7 @@
 #include <trammel/joint_friction.hpp>
 
 #include "plugin/plugin_error.hpp"
+#include "scene/laws/resolution.hpp"
 
 namespace trammel::model {
 
@@ -141,8 +142,9 @@ struct Model {
   std::vector<ForceEntry> forces;
   std::vector<ContactEntry> contacts;
   std::vector<GroundFrame> ground_frames = {GroundFrame{}};
-  Sizes sizes;       // nc: rows of bodies and joints, without contacts
-  bool flat = true;  // no rotation part anywhere: q is a plain vector
+  std::vector<scene::LawOfTime> laws;  // of all components, each once, without constants
+  Sizes sizes;                         // nc: rows of bodies and joints, without contacts
+  bool flat = true;                    // no rotation part anywhere: q is a plain vector
   bool constant_mass = true;
 
   // Assigns positions in q, v and g to every body and joint. Called when the entries are complete and after a

@@ -17,6 +17,7 @@ namespace trammel::simulate {
 namespace {
 
 constexpr std::size_t most_warnings = 20;
+constexpr double shortest_law = 1e-5;   // of the time between two records: steps become no shorter to show laws of time
 constexpr double nearly_shortest = 64;  // times the shortest step: one of no more is not shortened to show events
 constexpr double same_record = 1e-9;  // of the time between two records: times differ from their multiples by round-off
 
@@ -142,7 +143,7 @@ bool Simulator::advance(RecordSink& recorder) {
   if (now_.t >= settings_.until) return false;
   const double stop = dense_ && control().controlled() ? settings_.until : record_time(records_);
   for (;;) {
-    Trial trial(control().propose(now_.t, stop, location_.longest_step(step_limit_)));
+    Trial trial(propose(stop));
     if (try_step(trial)) {
       complete(trial, recorder);
       return true;
@@ -152,6 +153,19 @@ bool Simulator::advance(RecordSink& recorder) {
       return true;
     }
   }
+}
+
+// With contacts, a controlled step is so short that its ends show what laws of time do within it: error control sees
+// the laws only through the motion, and where bodies rest it sees nothing.
+StepControl::Proposal Simulator::propose(double stop) {
+  StepControl& steps = control();
+  const double longest = location_.longest_step(step_limit_);
+  const StepControl::Proposal proposal = steps.propose(now_.t, stop, longest);
+  if (!steps.controlled() || !location_.has_contacts()) return proposal;
+  const double least = std::max(shortest_law * settings_.every, steps.smallest(now_.t));
+  double h = proposal.h;
+  for (const scene::LawOfTime& law : system_.model().laws) h = scene::step_that_shows(law, now_.t, h, least);
+  return h < proposal.h ? steps.propose(now_.t, stop, std::min(h, longest)) : proposal;
 }
 
 void Simulator::complete(const Trial& trial, RecordSink& recorder) {

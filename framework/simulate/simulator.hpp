@@ -105,6 +105,7 @@ class Simulator {
   void judge_joints(const State& state);
   bool contradictory(const ConstraintNorms& norms);
   bool near_the_end_of_numbers() const;
+  StepControl::Proposal propose(double stop);
   bool try_step(Trial& trial);
   bool step_and_examine(Trial& trial);
   bool within_tolerance(Trial& trial);

@@ -45,12 +45,18 @@ class JetCode final : public TimeFunction::Code {
   struct Instruction {
     Op op;
     double number = 0;
+    bool operator==(const Instruction&) const = default;
   };
 
   static constexpr std::size_t stack_size = 64;  // the compiler refuses expressions that need more
   std::vector<Instruction> instructions;
 
   Jet jet(double t) const override;
+  scene::Series enclose(const scene::Range& t, int n) const override;
+  bool equals(const Code& other) const override {
+    const auto* code = dynamic_cast<const JetCode*>(&other);
+    return code && code->instructions == instructions;
+  }
   void branches(double t, std::vector<double>& way) const override;
 
  private:

@@ -6,12 +6,17 @@
 
 #include <trammel/time_function.hpp>
 
+#include "scene/laws/series.hpp"
+
 namespace trammel {
 
 class TimeFunction::Code {
  public:
   virtual ~Code() = default;
   virtual Jet jet(double t) const = 0;
+  // Ranges of the law and its derivatives over an interval of time, up to the n-th.
+  virtual scene::Series enclose(const scene::Range& t, int n) const = 0;
+  virtual bool equals(const Code& other) const = 0;
   // The branch of each switch of the law (step, abs, max, ...) at t. If the list is equal at two times, no switching
   // between them is detected.
   virtual void branches(double /*t*/, std::vector<double>& way) const { way.clear(); }

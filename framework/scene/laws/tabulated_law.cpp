@@ -182,14 +182,30 @@ TimeFunction::Code::Span TabulatedLaw::span() const {
   return {};
 }
 
-TimeFunction::Jet TabulatedLaw::between_rows(double t) const {
-  const auto above = std::upper_bound(t_.begin() + 1, t_.end() - 1, t);
-  const auto j = std::size_t(above - t_.begin()), i = j - 1;
-  const double h = t_[j] - t_[i], s = (t - t_[i]) / h;
+bool TabulatedLaw::is_periodic() const {
+  return beyond_ == Beyond::repeat && !of_accelerations_ && x_.front() == x_.back();
+}
+
+bool TabulatedLaw::equals(const Code& other) const {
+  const auto* law = dynamic_cast<const TabulatedLaw*>(&other);
+  return law && law->beyond_ == beyond_ && law->t_ == t_ && law->x_ == x_ && law->v_ == v_ && law->a_ == a_;
+}
+
+TabulatedLaw::Piece TabulatedLaw::piece(std::size_t j) const {
+  const std::size_t i = j - 1;
+  const double h = t_[j] - t_[i];
   // Value, rate and second derivative at the right end minus those of the left end's quadratic there.
   const double dx = x_[j] - x_[i] - h * v_[i] - h * h / 2 * a_[i], dv = h * (v_[j] - v_[i] - h * a_[i]),
                da = h * h * (a_[j] - a_[i]);
   const double c3 = 10 * dx - 4 * dv + da / 2, c4 = -15 * dx + 7 * dv - da, c5 = 6 * dx - 3 * dv + da / 2;
+  return {h, {x_[i], h * v_[i], h * h / 2 * a_[i], c3, c4, c5}};
+}
+
+TimeFunction::Jet TabulatedLaw::between_rows(double t) const {
+  const auto above = std::upper_bound(t_.begin() + 1, t_.end() - 1, t);
+  const auto j = std::size_t(above - t_.begin()), i = j - 1;
+  const auto [h, c] = piece(j);
+  const double s = (t - t_[i]) / h, c3 = c[3], c4 = c[4], c5 = c[5];
   return {x_[i] + h * s * (v_[i] + h * s * a_[i] / 2) + s * s * s * (c3 + s * (c4 + s * c5)),
           v_[i] + h * s * a_[i] + s * s * (3 * c3 + s * (4 * c4 + s * 5 * c5)) / h,
           a_[i] + s * (6 * c3 + s * (12 * c4 + s * 20 * c5)) / (h * h)};

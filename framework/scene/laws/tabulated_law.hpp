@@ -18,6 +18,7 @@
 // Source: de Boor, A Practical Guide to Splines (osculatory interpolation, end conditions).
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "scene/laws/law_code.hpp"
@@ -33,15 +34,31 @@ class TabulatedLaw final : public TimeFunction::Code {
   static TabulatedLaw of_accelerations(std::vector<double> t, std::vector<double> a, Beyond beyond = Beyond::unsaid);
 
   TimeFunction::Jet jet(double t) const override;
+  scene::Series enclose(const scene::Range& t, int n) const override;
+  bool equals(const Code& other) const override;
   void branches(double t, std::vector<double>& way) const override;
   Span span() const override;
 
  private:
   TabulatedLaw() = default;
+  // A quintic between two rows: x = sum c_k s^k, s from 0 to 1 over the length h.
+  struct Piece {
+    double h;
+    std::array<double, 6> c;
+  };
+  Piece piece(std::size_t end) const;  // end: the later one of its rows
   TimeFunction::Jet between_rows(double t) const;
   TimeFunction::Jet held(std::size_t row, double t) const;
   TimeFunction::Jet repeated(double t) const;
   double period(double t) const;  // number of periods before t
+  bool is_periodic() const;       // nothing jumps where periods meet
+  scene::Series enclose_periods(const scene::Range& t, int n) const;
+  scene::Series enclose_once(const scene::Range& t, int n) const;
+  scene::Series enclose_beyond(const scene::Range& t, int n) const;
+  scene::Series enclose_rows(const scene::Range& t, int n) const;
+  scene::Series enclose_piece(std::size_t end, const scene::Range& t, int n) const;
+
+  static constexpr int smooth_at_rows = 5;  // the fourth derivative is continuous
 
   Beyond beyond_ = Beyond::unsaid;
   bool of_accelerations_ = false;

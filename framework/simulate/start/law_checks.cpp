@@ -9,6 +9,7 @@
 
 #include "scene/laws/continuity.hpp"
 #include "scene/laws/law_code.hpp"
+#include "simulate/start/laws_of_scene.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -32,23 +33,16 @@ std::optional<std::pair<double, const char*>> find_not_finite(const TimeFunction
   return {};
 }
 
-void check(const Value& component, const plugin::Entry& entry, double begin, double end, Problems& problems) {
-  for (const Parameter& parameter : entry.declaration.parameters) {
-    const Value* value = component.at_path(parameter.name);
-    if (!value || parameter.type != Parameter::Type::time_function || parameter.traits.derivatives == 0) continue;
-    Problems ignored;  // reported when the component was made
-    const auto law = value->read_time_function(ignored);
-    if (!law) continue;
-    if (const auto at = find_not_finite(*law, parameter.traits.derivatives, begin, end)) {
-      problems.error(
-          value->problem(fmt::format("at t = {:.9g} s the {} of this law is not finite", at->first, at->second)));
-      continue;
-    }
-    if (const auto jump = scene::find_jump(*law, parameter.traits.derivatives, begin, end))
-      problems.error(
-          value->problem(fmt::format("this law must be differentiable, but at t = {:.9g} s its {} jumps by {:.6g}",
-                                     jump->t, jump->derivative == 0 ? "value" : "velocity", jump->by)));
-  }
+void check_law(const Value& value, const TimeFunction& law, int derivatives, double begin, double end,
+               Problems& problems) {
+  if (derivatives == 0) return;
+  if (const auto at = find_not_finite(law, derivatives, begin, end))
+    return problems.error(
+        value.problem(fmt::format("at t = {:.9g} s the {} of this law is not finite", at->first, at->second)));
+  if (const auto jump = scene::find_jump(law, derivatives, begin, end))
+    problems.error(
+        value.problem(fmt::format("this law must be differentiable, but at t = {:.9g} s its {} jumps by {:.6g}",
+                                  jump->t, jump->derivative == 0 ? "value" : "velocity", jump->by)));
 }
 
 // A table ends with its last record. The scene must state how it continues: a record of 30 s in a run of 40 s may be a
@@ -91,16 +85,9 @@ void check_tables(const Value& value, double begin, double end, Problems& proble
 void check_laws(const Value& root, plugin::Registry& registry, double begin, double end, Problems& problems) {
   for (const char* group : {"bodies", "joints", "forces", "contacts"})
     if (const Value* components = root.find(group)) check_tables(*components, begin, end, problems);
-  for (const auto& [group, kind] :
-       {std::pair{"bodies", Kind::body}, std::pair{"joints", Kind::joint}, std::pair{"forces", Kind::force}}) {
-    const Value* components = root.find(group);
-    if (!components || components->type() != Value::Type::object) continue;
-    for (const auto& [name, component] : components->members()) {
-      Problems ignored;
-      if (const plugin::Entry* entry = plugin::entry_of(registry, kind, component, ignored))
-        check(component, *entry, begin, end, problems);
-    }
-  }
+  for_each_law(root, registry, [&](const Value& value, const TimeFunction& law, const Parameter& parameter) {
+    check_law(value, law, parameter.traits.derivatives, begin, end, problems);
+  });
 }
 
 }  // namespace trammel::simulate

@@ -20,6 +20,7 @@
 #include "simulate/start/integrator_choice.hpp"
 #include "simulate/start/latch_reach.hpp"
 #include "simulate/start/law_checks.hpp"
+#include "simulate/start/laws_of_scene.hpp"
 #include "system/assembled_system.hpp"
 
 namespace trammel::simulate {
@@ -153,6 +154,7 @@ Setup set_up(const scene::Scene& scene, plugin::Registry& registry, Purpose purp
   if (problems.empty()) check_fields(root, *setup.model, registry, problems);
   if (problems.empty()) check_laws(root, registry, setup.settings.start, setup.settings.until, problems);
   problems.throw_if_any();
+  setup.model->laws = laws_of_scene(root, registry);
   setup.plugins = registry.identities();
   model::AssembledSystem system(setup.model);
   const WitnessScope scope(witness, setup, system, {&setup.settings.start, nullptr});
