@@ -50,6 +50,7 @@ struct EventFunction {
   double bound = 0;             // [N] at the last evaluation: the bound of friction, or the largest force of a group
   double steepest = 0;          // slide: largest rate of change of the slip since it began [m/s^2]
   bool reported = false;        // it had the last event
+  bool grazed = false;          // approach: at the instant located last it only touched
   UndirectedSlip undirected{};  // slide in space
 
   ValueAndSlope now{}, next{};  // at the ends of the step examined; slopes of forces and accelerations are not known

@@ -9,6 +9,7 @@
 #include "linear/dense/eps.hpp"
 #include "simulate/event/earlier_events.hpp"
 #include "simulate/event/functions_of_modes.hpp"
+#include "simulate/event/grazes.hpp"
 #include "simulate/event/thresholds.hpp"
 
 namespace trammel::simulate {
@@ -47,14 +48,6 @@ void report(EventFunction& function, const model::Model& model, ContactChanges& 
   }
 }
 
-// [m, rad] A gap below this happens at the same instant. Where a truss unfolds into its singular position, the rows
-// that keep its cells alike have double roots, so their round-off determines the cells only to half of the digits.
-// Latches tied by such rows lock as one; otherwise nothing could move for the late ones.
-double same_instant(const model::AssembledSystem& system, int contact, const Scale& scale) {
-  const bool by_double_root = system.model().contacts[std::size_t(contact)].limit && system.redundant();
-  return by_double_root ? std::sqrt(eps) * scale.length() : 4 * scale.touching();
-}
-
 bool happens_too(const EventFunction& function, const model::AssembledSystem& system, const Scale& scale) {
   const ValueAndSlope& end = function.next;
   const bool falls = end.slope < -scale.rest_speed();
@@ -63,7 +56,7 @@ bool happens_too(const EventFunction& function, const model::AssembledSystem& sy
   if (function.by_force()) return end.f <= vanished_force * function.bound && !function.just_handled();
   if (function.kind == Kind::slide)
     return end.f <= function.noise && !function.just_handled() && end.slope < -scale.no_acceleration();
-  return end.f <= same_instant(system, function.contact, scale) && falls;
+  return end.f <= same_instant(system, function.contact, scale) && falls && !function.grazed;
 }
 
 // Adds the changes of all functions whose event is at the same instant: the end of the step, which was shortened to the
@@ -149,9 +142,11 @@ EventLocation::Found EventLocation::locate(const State& now, double& h, State& n
     h = first.h;
     if (passes_infinity(steps)) return Found::passes_infinity;
   }
-  report(*first.function, system_.model(), changes_);
+  mark_grazes(functions_, system_, scale_, values_, next);
+  const bool passes = first.function->grazed;
+  if (!passes) report(*first.function, system_.model(), changes_);
   report_others(functions_, system_, scale_, changes_);
-  return Found::event;
+  return passes && changes_.empty() ? Found::nothing : Found::event;
 }
 
 double EventLocation::longest_step(double swings) const {

@@ -31,9 +31,10 @@ class EventLocation {
   enum class Steps { fixed, controlled, nearly_shortest };
   enum class Found { nothing, event, step_refused, step_too_long, passes_infinity, not_finite };
   // Examines the trial now -> next over h. Found::event: h and next are shortened to the event, `changes` are the
-  // changes there. Found::not_finite: a gap or a force at next is not finite, though the state may be (a law of time
-  // that ended under a body). next must not be accepted after Found::step_too_long (Steps::controlled only) and
-  // Found::passes_infinity (not Steps::fixed).
+  // changes there. With Found::nothing they may be shortened too, to where a gap only touches (mark_grazes).
+  // Found::not_finite: a gap or a force at next is not finite, though the state may be (a law of time that ended under
+  // a body). next must not be accepted after Found::step_too_long (Steps::controlled only) and Found::passes_infinity
+  // (not Steps::fixed).
   Found examine(const State& now, double& h, State& next, Steps steps);
   const ContactChanges& changes() const { return changes_; }
   // [s] Limit of the next step: `swings` (longest_step_in_contact), or more if every closed contact slides so fast

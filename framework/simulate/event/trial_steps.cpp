@@ -1,5 +1,6 @@
 #include "simulate/event/trial_steps.hpp"
 
+#include "simulate/event/grazes.hpp"
 #include "simulate/event/trial_step.hpp"
 
 namespace trammel::simulate {
@@ -7,12 +8,8 @@ namespace trammel::simulate {
 bool StepsFromNow::happened(const EventFunction& function, const ValueAndSlope& end) {
   if (!(end.f < 0)) return false;
   if (!function.just_handled() || end.f < std::min(function.now.f, 0.0) - function.noise) return true;
-  return function.is_gap() && end.slope < -scale(function).left_by_impacts() && !grazes(function);
-}
-
-bool StepsFromNow::grazes(const EventFunction& function) {
-  const double rate = function.now.slope, acceleration = gap_acceleration(function);
-  return rate < 0 && acceleration > 0 && function.now.f - rate * rate / (2 * acceleration) > -function.noise;
+  return function.is_gap() && end.slope < -scale(function).left_by_impacts() &&
+         !grazes(function.now, gap_acceleration(function), function.noise);
 }
 
 ValueAndSlope TrialSteps::at(EventFunction& function, double h) {

@@ -23,11 +23,6 @@ class StepsFromNow {
   // without end. A function that began below 0 (a drifted row, an onset that was not located) proves nothing unless it
   // falls further.
   bool happened(const EventFunction& function, const ValueAndSlope& end);
-  // A gap that touches and closes, but opens again by its own acceleration before it is as deep as what counts as
-  // touching. Contacts that depend on each other leave such rates: a box that tips about its feet moves its lowest
-  // corner against a wall until it lands, by a distance that nothing resolves. An impact would move the feet, and their
-  // friction would restore the rate, again and again.
-  bool grazes(const EventFunction& function);
 };
 
 // By an integrator.
