@@ -46,7 +46,7 @@ Simulator::Simulator(std::shared_ptr<model::Model> model, Integrator& integrator
       modes_(system_, scale_, settings_),
       location_(system_, integrator, modes_, scale_),
       ledger_(system_, integrator),
-      energy_(system_, scale_, ledger_),
+      energy_(system_, scale_, ledger_, StepControl::resolution(settings.every)),
       thresholds_(system_.model()),
       refinement_(std::move(model), system_),
       turns_(system_),

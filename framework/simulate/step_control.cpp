@@ -26,8 +26,12 @@ StepControl::StepControl(const StepChoice& choice, double every, int order, bool
   wish_ = std::min(wish_, choice_.most);
 }
 
+double StepControl::resolution(double t) {
+  return 16 * eps * t;
+}
+
 double StepControl::smallest(double t) const {
-  return std::max(choice_.least, 16 * eps * std::max(std::abs(t), every_));
+  return std::max(choice_.least, resolution(std::max(std::abs(t), every_)));
 }
 
 StepControl::Proposal StepControl::propose(double t, double stop, double most) {

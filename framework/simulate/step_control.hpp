@@ -44,6 +44,8 @@ class StepControl {
   // After events and changes of modes: discards the plan up to the next stop.
   void interrupted() { planned_ = 0; }
   double smallest(double t) const;  // [s]
+  // [s] Times of this size are not resolved to shorter steps.
+  static double resolution(double t);
 
   void archive(Archive& a, const std::string& prefix);
 

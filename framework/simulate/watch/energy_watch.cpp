@@ -55,7 +55,8 @@ double EnergyWatch::relative_drift(const Energy& energy) {
 // [J] Energy that counts as none in this scene: 1e-8 of the energy of its masses at its speed, which a fall through its
 // length gives, or of `work` if that is more; a nanojoule if there is neither. That is ten times the energy of a fall
 // through the last digits of a scene: a contact that is closed at the start may be off by those, and the stabilisation
-// of its row closes it in steps of any length.
+// of its row closes it in steps of any length. A fall during the shortest step counts as none too: a base whose law
+// begins with 1e-78 m has no speed to compare with, but the first event is located by steps.
 double EnergyWatch::little(double work) {
   constexpr double part = 1e-8, nanojoule = 1e-9;
   if (system_.sizes().nv == 0) return nanojoule;
@@ -63,9 +64,10 @@ double EnergyWatch::little(double work) {
   const Vec rates = system_.coordinate_sizes().levers.cwiseInverse();  // of a speed of 1 m/s
   Vec momenta = Vec::Zero(rates.size());
   system_.add_mass_times(1, rates, momenta);
-  const double moving = momenta.cwiseProduct(rates).lpNorm<Eigen::Infinity>() * speed * speed;
-  const double energy = std::max(moving, work);
-  return energy > 0 ? part * energy : nanojoule;
+  const double mass = momenta.cwiseProduct(rates).lpNorm<Eigen::Infinity>();
+  const double energy = std::max(mass * speed * speed, work);
+  const double fall = shortest_step_ * system_.model().world.gravity.norm();  // [m/s]
+  return energy > 0 ? std::max(part * energy, mass * fall * fall) : nanojoule;
 }
 
 // [J] The largest work of a present force over the scene's length. Without gravity, what loads hold at rest has no

@@ -22,8 +22,8 @@ class EnergyWatch {
  public:
   static constexpr double unexplained = 0.05;  // a larger relative drift makes a run doubtful
 
-  EnergyWatch(model::AssembledSystem& system, const ContactScale& scale, const Ledger& ledger)
-      : system_(system), scale_(scale), ledger_(ledger) {}
+  EnergyWatch(model::AssembledSystem& system, const ContactScale& scale, const Ledger& ledger, double shortest_step)
+      : system_(system), scale_(scale), ledger_(ledger), shortest_step_(shortest_step) {}
   void start(const Energy& initial);
 
   enum class Verdict { explained, unexplained, diverged, not_finite };
@@ -48,6 +48,7 @@ class EnergyWatch {
   model::AssembledSystem& system_;
   const ContactScale& scale_;
   const Ledger& ledger_;
+  double shortest_step_;  // [s] that time resolves
   Energy start_;
   double moved_ = 0;                        // [J]
   double none_ = 0;                         // [J]

@@ -126,7 +126,7 @@ TEST(ContactAudit, ReportsFrictionThatSuppliesEnergyButNotByRoundOff) {
     ASSERT_LT(ledger.friction()[0], 0);
     simulate::ContactScale scale(*setup.model);
     scale.take_all(system);
-    simulate::EnergyWatch energy(system, scale, ledger);
+    simulate::EnergyWatch energy(system, scale, ledger, 0);
     energy.look(system.energy(), true);
     const std::vector<std::string> warnings = simulate::ContactAudit().warnings(*setup.model, ledger, energy.none());
     if (speed > 1e-6)

@@ -35,17 +35,17 @@ struct Shaken {
 };
 
 // A point mass on a floor.
-Finished run(const Shaken& shaken, double every) {
+Finished run(const Shaken& shaken, double every, double x = 0.3) {
   return run_text(fmt::format(
       R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
           "bodies": {{"base": {{"type": "moving_base", "x": "={}", "markers": {{"top": [0, 0]}}}},
-                      "block": {{"type": "point_mass", "mass": {}, "position": [0.3, 0]}}}},
+                      "block": {{"type": "point_mass", "mass": {}, "position": [{}, 0]}}}},
           "forces": {{"hand": {{"type": "load", "on": "block.point", "force": {{"x": "={}", "y": "={}"}}}}}},
           "contacts": {{"foot": {{"type": "constraint_method", "restitution": 0,
               "between": ["block.point", {{"plane": {{"point": [0, 0], "normal": [0, 1], "on": "base.top"}}}}],
               "friction": {{"type": "coulomb", "static": {}, "kinetic": {}}}}}}},
           "record": {{"every": {}}}, "simulate": {{"until": {}}}}})",
-      shaken.base, mass, shaken.along, shaken.up, mu, mu, every, until));
+      shaken.base, mass, x, shaken.along, shaken.up, mu, mu, every, until));
 }
 
 std::optional<double> onset(const Shaken& shaken) {
@@ -132,6 +132,18 @@ TEST(ShortLoads, MoveABodyAtRestWhenTheyExceedItsLimit) {
     ++moved;
   }
   EXPECT_GT(moved, 30);
+}
+
+// The base begins with speeds like 1e-78 m/s at the origin, so the scene shows no length and no speed at first.
+TEST(ShortLoads, OfABaseThatBeginsFarBelowAnySpeedMoveABody) {
+  Random random{std::mt19937(2)};
+  for (int i = 0; i < 12; ++i) {
+    const Shaken shaken = peak(random, 4, 1.1);
+    const Finished finished = run(shaken, 0.02, 0);
+    ASSERT_TRUE(finished.done()) << shaken.base << ": " << finished.report.reason;
+    EXPECT_THAT(finished.result["warnings"].dump(), testing::Not(testing::HasSubstr("trusted"))) << shaken.base;
+    EXPECT_NEAR(first_event(finished).value_or(0), onset(shaken).value(), 1e-7) << shaken.base;
+  }
 }
 
 // The steps follow the loads only while these vary.
