@@ -320,5 +320,10 @@ TEST(Continuity, ALawWithoutSwitchesHasNoJump) {
   EXPECT_FALSE(find_jump(law("1/(t - 1)"), 2, 0, 2));
 }
 
+TEST(TimeFunction, CountsAsZeroWhereItsSquareWouldUnderflow) {
+  EXPECT_EQ(law("exp(-(t/0.01)^2)").jet(-0.2).value, 0);  // 1e-174
+  EXPECT_GT(law("exp(-(t/0.01)^2)").jet(-0.1).value, 0);  // 1e-44
+}
+
 }  // namespace
 }  // namespace trammel::scene

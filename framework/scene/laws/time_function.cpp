@@ -189,8 +189,22 @@ Jet JetCode::run(double t, std::vector<double>* way) const {
   return stack[0];
 }
 
+namespace {
+
+// Smaller values and derivatives of laws count as 0, so that squares and products of loads do not underflow: a gaussian
+// is 1e-300 far from its middle, and friction needs the direction of what it drives.
+constexpr double least_value = 1e-100;
+
+double or_zero(double x) {
+  return std::abs(x) < least_value ? 0 : x;
+}
+
+}  // namespace
+
 Jet TimeFunction::jet(double t) const {
-  return code_ ? code_->jet(t) : Jet{constant_, 0, 0};
+  if (!code_) return {constant_, 0, 0};
+  const Jet all = code_->jet(t);
+  return {or_zero(all.value), or_zero(all.rate), or_zero(all.second)};
 }
 
 std::string TimeFunction::text() const {

@@ -6,6 +6,7 @@
 // tangent lets go in each repetition, so this ends. A tangent that mu holds after all stays at rest.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -19,7 +20,7 @@ using model::Tangential;
 
 // x / |x|; the direction of the first tangent if x is 0.
 inline Tangential direction_of(const Tangential& x) {
-  const double length = x.norm();
+  const double length = std::hypot(x[0], x[1]);  // of denormal numbers too
   return length > 0 ? Tangential(x / length) : Tangential(1, 0);
 }
 

@@ -155,7 +155,7 @@ bool ContactsAtPoint::follow_slip() {
     if (!mode.closed || mode.friction == ContactMode::Friction::none || tangents(i) == 1) continue;
     if (mode.friction == ContactMode::Friction::slide) {
       const Tangential s = slip(i);
-      if (s.dot(mode.direction) > mode.least_slip) mode.direction = s.normalized();
+      if (s.dot(mode.direction) > mode.least_slip) mode.direction = s / std::hypot(s[0], s[1]);
     } else if (geometry(i).rolls()) {
       anchor(i, mode);
       rolled = true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <string>
@@ -143,6 +144,30 @@ TEST(ShortLoads, OfABaseThatBeginsFarBelowAnySpeedMoveABody) {
     ASSERT_TRUE(finished.done()) << shaken.base << ": " << finished.report.reason;
     EXPECT_THAT(finished.result["warnings"].dump(), testing::Not(testing::HasSubstr("trusted"))) << shaken.base;
     EXPECT_NEAR(first_event(finished).value_or(0), onset(shaken).value(), 1e-7) << shaken.base;
+  }
+}
+
+// Both loads begin with 1e-300 N, where the square of a slip underflows. They have one shape g, so the mass slides from
+// the beginning: m v' = (push - mu press) g, v at the end by the integral of g, w sqrt(pi).
+TEST(ShortLoads, ThatBeginBelowAnyNumberGiveSlipsItsDirection) {
+  Random random{std::mt19937(3)};
+  for (int i = 0; i < 20; ++i) {
+    const double press = random(2, 9), push = (mu + random(0.05, 0.5)) * press, at = random(0.4, 0.6),
+                 w = random(0.01, 0.02);
+    const std::string g_of_t = fmt::format("exp(-((t-{:.17g})/{:.17g})^2)", at, w);
+    const Finished finished = run_text(fmt::format(
+        R"({{"trammel": 1, "space": "planar", "gravity": [0, 0],
+            "bodies": {{"block": {{"type": "point_mass", "mass": {}, "position": [0, 0]}}}},
+            "forces": {{"hand": {{"type": "load", "on": "block.point",
+                                  "force": {{"x": "={:.17g}*{}", "y": "=-{:.17g}*{}"}}}}}},
+            "contacts": {{"foot": {{"type": "constraint_method", "restitution": 0,
+                "between": ["block.point", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}],
+                "friction": {{"type": "coulomb", "static": {}, "kinetic": {}}}}}}},
+            "record": {{"every": 0.02, "observe": {{"v": "block.point.vx"}}}}, "simulate": {{"until": 1}}}})",
+        mass, push, g_of_t, press, g_of_t, mu, mu));
+    ASSERT_TRUE(finished.done()) << g_of_t << ": " << finished.report.reason;
+    EXPECT_THAT(finished.result["warnings"].dump(), testing::Not(testing::HasSubstr("trusted"))) << g_of_t;
+    EXPECT_NEAR(finished.end("v"), (push - mu * press) * w * std::sqrt(std::numbers::pi) / mass, 1e-9) << g_of_t;
   }
 }
 
