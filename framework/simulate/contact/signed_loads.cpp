@@ -25,7 +25,9 @@ std::vector<double> signed_loads(model::AssembledSystem& system, int contact, do
   Bearings bearings;
   bearings.begin(system.model().world.space);
   entry.joint->bearing->bearings(t, *markers[0], *markers[1], bearings);
-  const Vec6 wrench = rows.H_B.transpose() * lambda.segment(joint.row, joint.rows);
+  // With what contacts put on the joint as they share their forces: without it, the load would depend on which of their
+  // rows are in g.
+  const Vec6 wrench = rows.H_B.transpose() * system.reactions(lambda).segment(joint.row, joint.rows);
   std::vector<double> loads;
   for (int k = 0, first = 0; k < bearings.count; first += bearings.sizes[std::size_t(k++)])
     if (bearings.sizes[std::size_t(k)] == 1) loads.push_back(bearings.C.row(first).dot(wrench));
