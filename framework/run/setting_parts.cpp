@@ -67,7 +67,11 @@ Part step() {
             .above_min = true,
             .doc = "where the error asks for less the run ends; what round-off of t leaves if left out"}),
        key("max", Type::number,
-           {.unit = "s", .min = 0, .above_min = true, .doc = "20 times record.every if left out, and at most that"},
+           {.unit = "s",
+            .min = 0,
+            .above_min = true,
+            .doc = "20 times record.every if left out, and at most that; contacts ask for shorter steps where laws of "
+                   "t vary"},
            defaults.most)},
       {"A scene without an integrator is run by dop853 with errors below 1e-9; with \"rows\": \"projected\" where "
        "bodies whose masses differ by more than 1e7 are tied by joints, and in runs of rows over 1000 s; and by "

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "linear/dense/eps.hpp"
 #include "simulate/event/earlier_events.hpp"
 #include "simulate/event/functions_of_modes.hpp"
 #include "simulate/event/grazes.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "linear/dense/eps.hpp"
+#include "simulate/event/thresholds.hpp"
 
 namespace trammel::simulate {
 namespace {
@@ -52,11 +52,6 @@ void mark_grazes(std::vector<EventFunction>& functions, model::AssembledSystem& 
     function.grazed = function.next.f <= known && grazes(function.next, values.gap_acceleration(function, next), known);
     if (function.grazed) function.noise = known;
   }
-}
-
-double same_instant(const model::AssembledSystem& system, int contact, const Scale& scale) {
-  const bool by_double_root = system.model().contacts[std::size_t(contact)].limit && system.redundant();
-  return by_double_root ? std::sqrt(eps) * scale.length() : 4 * scale.touching();
 }
 
 }  // namespace trammel::simulate

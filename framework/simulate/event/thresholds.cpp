@@ -1,7 +1,9 @@
 #include "simulate/event/thresholds.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "linear/dense/eps.hpp"
 #include "simulate/contact/force_noise.hpp"
 
 namespace trammel::simulate {
@@ -66,6 +68,11 @@ void allow_for_friction_at_bounds(std::vector<EventFunction>& functions, model::
   for (EventFunction& each : functions)
     if (each.kind == Kind::hold && !each.at_ends && each.now.f <= std::max(critical_force * each.bound, each.little))
       each.noise = std::max({each.noise, friction_noise(system, scale, each.contact), each.little});
+}
+
+double same_instant(const model::AssembledSystem& system, int contact, const Scale& scale) {
+  const bool by_double_root = system.model().contacts[std::size_t(contact)].limit && system.redundant();
+  return by_double_root ? std::sqrt(eps) * scale.length() : 4 * scale.touching();
 }
 
 }  // namespace trammel::simulate

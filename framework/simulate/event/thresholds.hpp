@@ -21,4 +21,9 @@ void allow_for_round_off(std::vector<EventFunction>& functions, model::Assembled
 void allow_for_friction_at_bounds(std::vector<EventFunction>& functions, model::AssembledSystem& system,
                                   const ContactScale& scale);
 
+// [m, rad] A gap below this happens at the same instant. Where a truss unfolds into its singular position, the rows
+// that keep its cells alike have double roots, so their round-off determines the cells only to half of the digits.
+// Latches tied by such rows lock as one; otherwise nothing could move for the late ones.
+double same_instant(const model::AssembledSystem& system, int contact, const Scale& scale);
+
 }  // namespace trammel::simulate
