@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 
 #include "complementarity/contact_order.hpp"
 #include "complementarity/exact_modes.hpp"
+#include "complementarity/forces_at_rest.hpp"
 #include "complementarity/islands.hpp"
 #include "complementarity/mode_search.hpp"
 #include "complementarity/programs/friction_cone.hpp"
@@ -48,10 +50,11 @@ class Cascade {
     }
   }
 
-  ContactSolution solve(const NearbySolution& nearby, ModeSearch search, Vec& F) {
+  ContactSolution solve(const Preference& first, ModeSearch search, Vec& F) {
     if (!friction_) return without_friction(F);
     dependent_ = !independent();
-    if (nearby.F.size() > 0 && continues(nearby)) return found(F);
+    if (first.N.size() > 0 && rests(first.N)) return found(F);
+    if (first.nearby.F.size() > 0 && continues(first.nearby)) return found(F);
     for (const double yields : dependent_ ? std::span<const double>(dependent_compliances) : compliances)
       if (by_pivoting(yields)) return found(F);
     if (round_ && (try_cones(0, Vec::Zero(b_.size())) || (best_.size() > 0 && try_cones(0, best_)))) return found(F);
@@ -72,6 +75,11 @@ class Cascade {
   }
 
  private:
+  bool rests(const Vec& N) {
+    const std::optional<Vec> held = forces_at_rest(points_, A_, b_, N);
+    return held && accept(*held);
+  }
+
   // In its modes, or by Newton's method from its forces.
   bool continues(const NearbySolution& nearby) { return accept(nearby.F, nearby.a) || try_cones(0, nearby.F); }
 
@@ -245,11 +253,14 @@ class WithoutRoundOff {
 };
 
 ContactSolution solve_island(const Island& island, const Mat& A, const Vec& b, Vec& F, Vec& a, double nothing,
-                             const NearbySolution& nearby, ModeSearch search) {
+                             const Preference& first, ModeSearch search) {
   const OrderedContacts ordered(island.points, A, b);
+  const NearbySolution& nearby = first.nearby;
   Vec F_ordered;
-  NearbySolution begin;
-  if (nearby.F.size() > 0) begin = {ordered.ordered(nearby.F(island.rows)), ordered.ordered(nearby.a(island.rows))};
+  Preference begin;
+  if (first.N.size() > 0) begin.N = ordered.ordered(first.N(island.rows));
+  if (nearby.F.size() > 0)
+    begin.nearby = {ordered.ordered(nearby.F(island.rows)), ordered.ordered(nearby.a(island.rows))};
   const ContactSolution solution =
       Cascade(ordered.points(), ordered.A(), ordered.b(), nothing).solve(begin, search, F_ordered);
   if (solution.outcome != LcpOutcome::solved) return solution;
@@ -271,7 +282,7 @@ ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Ma
 
 ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a,
                                const std::vector<double>& nothing, std::vector<double>& violation,
-                               const NearbySolution& nearby, ModeSearch search) {
+                               const Preference& first, ModeSearch search) {
   F.setZero(b.size());
   a.setZero(b.size());
   violation.assign(points.size(), 0);
@@ -284,7 +295,7 @@ ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Ma
     double counts_as_0 = 0;
     for (const std::size_t i : island.members) counts_as_0 = std::max(counts_as_0, nothing[i]);
     const ContactSolution one = solve_island(island, A(island.rows, island.rows), b(island.rows), F_island, a_island,
-                                             counts_as_0, nearby, search);
+                                             counts_as_0, first, search);
     for (const std::size_t i : island.members) violation[i] = one.violation;
     if (one.outcome != LcpOutcome::solved) {
       F.setZero(), a.setZero();

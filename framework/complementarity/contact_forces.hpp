@@ -21,7 +21,8 @@
 // friction they may not be, and no rule is known that finds a particular solution: the first one found counts, for
 // contacts in an order of their own (contact_order.hpp). So the answer does not depend on the order in which contacts
 // are named, except among contacts that look alike. It is not continuous: if two solutions are equally near to the
-// start of the search, round-off may choose. So the solution near one that is known is sought first.
+// start of the search, round-off may choose. So the solution near one that is known is sought first. Where a slip ends,
+// rest comes before all others if springs that are pushed as until then hold it (forces_at_rest.hpp).
 #pragma once
 
 #include <vector>
@@ -48,10 +49,17 @@ struct NearbySolution {
 
 enum class ModeSearch { of_few_contacts, none };  // step 3
 
+// Which of several solutions with friction is sought first: rest, where contacts have pressed until now with the normal
+// forces N, in the order of b (forces_at_rest.hpp), then the one near `nearby`. Both may be unknown.
+struct Preference {
+  NearbySolution nearby = {};
+  Vec N = {};
+};
+
 // The same, with a `nothing` for each contact, of which the largest of an island counts in it. Fills `violation`, that
-// of each contact's island, as far as islands are solved. With friction the solution near `nearby` is sought first.
+// of each contact's island, as far as islands are solved.
 ContactSolution solve_contacts(const std::vector<ContactPoint>& points, const Mat& A, const Vec& b, Vec& F, Vec& a,
                                const std::vector<double>& nothing, std::vector<double>& violation,
-                               const NearbySolution& nearby = {}, ModeSearch search = ModeSearch::of_few_contacts);
+                               const Preference& first = {}, ModeSearch search = ModeSearch::of_few_contacts);
 
 }  // namespace trammel::complementarity

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include <trammel/decompositions.hpp>
+
 #include "complementarity/contact_forces.hpp"
+#include "complementarity/shares/springs_at_rest.hpp"
 
 namespace trammel::complementarity {
 namespace {
@@ -30,9 +33,88 @@ ContactPoint point_of(const SharingContact& c) {
   return p;
 }
 
+std::vector<std::optional<double>> none_known(const std::vector<SharingContact>& contacts) {
+  return std::vector<std::optional<double>>(contacts.size());
+}
+
+// The normal directions of the contacts, in rows of length 1 at right angles to each other: then the least y has the
+// least E_n^T y, whatever the basis of the resultants was.
+Mat orthonormal_rows(const Mat& E_n) {
+  const Eigen::ColPivHouseholderQR<Mat> qr(E_n.transpose());
+  return first_columns_of_q(qr, qr.rank()).transpose();
+}
+
 // Where it presses, the force itself is more accurate.
 double push_of(double N, double moved) {
   return N > 0 ? N : std::min(0.0, moved);
+}
+
+// The forces while no spring moves: the friction that comes nearest to the balance, which is the solution if nothing is
+// missed. There may be others, far away, in which all slip at once.
+NearbySolution without_motion(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda) {
+  NearbySolution still{Vec::Zero(E.cols()), Vec::Zero(E.cols())};
+  std::vector<ContactPoint> rubbing;
+  std::vector<Eigen::Index> columns;
+  for (const SharingContact& c : contacts) {
+    const double N = c.normal >= 0 ? std::max(0.0, *c.push) : c.given;
+    if (c.normal >= 0) still.F[c.normal] = N, still.a[c.normal] = N - *c.push;
+    if (c.tangents.empty() || !(N > 0)) continue;
+    ContactPoint& p = rubbing.emplace_back(point_of(c));
+    p.normal = -1, p.given = N, p.tangent = int(columns.size());
+    columns.insert(columns.end(), c.tangents.begin(), c.tangents.end());
+  }
+  const Mat E_t = E(Eigen::all, columns);
+  Vec T, slip;
+  const Vec b = -E_t.transpose() * (lambda - E * still.F);
+  if (solve_contacts(rubbing, E_t.transpose() * E_t, b, T, slip).outcome == LcpOutcome::solved) still.F(columns) = T;
+  return still;
+}
+
+// How far forces are from the conditions of springs and friction that `moved` their contacts [N].
+double violated(const std::vector<SharingContact>& contacts, const Vec& F, const Vec& moved) {
+  double most = 0;
+  for (const SharingContact& c : contacts) {
+    const double N = c.normal >= 0 ? F[c.normal] : c.given, bound = c.coefficient * std::max(0.0, N);
+    if (c.normal >= 0) most = std::max(most, std::abs(N - std::max(0.0, moved[c.normal])));
+    if (c.tangents.empty()) continue;
+    Vec along = F(c.tangents) + moved(c.tangents);
+    if (const double size = along.norm(); size > bound) along *= bound / size;
+    most = std::max(most, (F(c.tangents) - along).norm());
+  }
+  return most;
+}
+
+// The solution near `nearby`, if it is known.
+std::optional<SpringMotion> follow_near(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda,
+                                        NearbySolution nearby) {
+  const bool near = nearby.F.size() > 0;
+  const ModeSearch search = near ? ModeSearch::none : ModeSearch::of_few_contacts;  // without it, another try follows
+  const double s = yields_more * double(E.cols()) / E.squaredNorm();
+  Mat A = s * E.transpose() * E;
+  Vec p = Vec::Zero(E.cols()), r = lambda, F, w;
+  std::vector<ContactPoint> points;
+  for (const SharingContact& c : contacts) {
+    points.push_back(point_of(c));
+    if (c.normal >= 0) A(c.normal, c.normal) += 1, p[c.normal] = *c.push;
+  }
+  const std::vector<double> nothing(points.size(), 0);
+  std::vector<double> violation;
+  std::optional<SpringMotion> best;
+  for (int round = 0; round < most_rounds_of_yielding; ++round) {
+    const Vec b = -s * E.transpose() * r - p;
+    if (solve_contacts(points, A, b, F, w, nothing, violation, {nearby, {}}, search).outcome != LcpOutcome::solved)
+      return std::nullopt;
+    if (near) nearby = {F, w};
+    const Vec missed = lambda - E * F;
+    if (best && !(missed.norm() < best->missed)) break;
+    const Vec moved = p + s * E.transpose() * (r - E * F);
+    best = SpringMotion{F, {}, missed.norm(), violated(contacts, F, moved)};
+    for (const SharingContact& c : contacts)
+      best->push.push_back(c.normal >= 0 ? std::optional(push_of(F[c.normal], moved[c.normal])) : std::nullopt);
+    if (best->missed <= no_loss * lambda.norm()) break;
+    r += missed;
+  }
+  return best;
 }
 
 }  // namespace
@@ -49,28 +131,29 @@ SpringsThatHold SpringMotion::springs() const {
 
 std::optional<SpringMotion> follow_loads(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda) {
   if (!push_is_known(contacts)) return std::nullopt;
-  const double s = yields_more * double(E.cols()) / E.squaredNorm();
-  Mat A = s * E.transpose() * E;
-  Vec p = Vec::Zero(E.cols()), r = lambda, F, w;
-  std::vector<ContactPoint> points;
-  for (const SharingContact& c : contacts) {
-    points.push_back(point_of(c));
-    if (c.normal >= 0) A(c.normal, c.normal) += 1, p[c.normal] = *c.push;
+  const auto near = follow_near(contacts, E, lambda, without_motion(contacts, E, lambda));
+  if (near && near->carries(lambda) && near->violated <= lost_balance * near->F.norm()) return near;
+  return follow_near(contacts, E, lambda, {});
+}
+
+// Loads that these normal forces carry without friction are followed from springs that touch.
+std::vector<std::optional<double>> pushes_of(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& N) {
+  if (!can_be_wedged_in(contacts, E)) return none_known(contacts);
+  std::vector<SharingContact> without_friction;
+  std::vector<Eigen::Index> columns, who;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (contacts[i].normal < 0) continue;
+    SharingContact& c = without_friction.emplace_back();
+    c.normal = Eigen::Index(who.size()), c.push = 0;
+    columns.push_back(contacts[i].normal), who.push_back(Eigen::Index(i));
   }
-  std::optional<SpringMotion> best;
-  for (int round = 0; round < most_rounds_of_yielding; ++round) {
-    const Vec b = -s * E.transpose() * r - p;
-    if (solve_contacts(points, A, b, F, w).outcome != LcpOutcome::solved) return std::nullopt;
-    const Vec missed = lambda - E * F;
-    if (best && !(missed.norm() < best->missed)) break;
-    const Vec moved = p + s * E.transpose() * (r - E * F);
-    best = SpringMotion{F, {}, missed.norm()};
-    for (const SharingContact& c : contacts)
-      best->push.push_back(c.normal >= 0 ? std::optional(push_of(F[c.normal], moved[c.normal])) : std::nullopt);
-    if (best->missed <= no_loss * lambda.norm()) break;
-    r += missed;
-  }
-  return best;
+  const Mat normals = orthonormal_rows(E(Eigen::all, columns));
+  const Vec lambda = normals * N(who);
+  const auto motion = follow_loads(without_friction, normals, lambda);
+  std::vector<std::optional<double>> pushes = none_known(contacts);
+  if (!motion || !motion->carries(lambda)) return pushes;
+  for (std::size_t k = 0; k < who.size(); ++k) pushes[std::size_t(who[k])] = motion->push[k];
+  return pushes;
 }
 
 }  // namespace trammel::complementarity

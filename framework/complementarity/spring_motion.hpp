@@ -12,7 +12,12 @@
 //     w_n = N - p - E_n^T dy,    w_t = -E_t^T dy,    A = s E^T E + diag(1 for normals, 0)
 //
 // and r is raised by what E F misses of lambda until nothing is missed (method of multipliers). Where no dy exists, the
-// contacts let go, whatever other forces could still hold them.
+// contacts let go, whatever other forces could still hold them. There may be several solutions: the one near the
+// springs as they are is sought first, with friction that holds them there if it can.
+//
+// Where contacts come to rest out of sliding, their springs are pushed as they were while they slid: a slip that ends
+// moves no spring. Friction changes at once, then, from mu N to what holds beside these normal forces, if it can;
+// otherwise the springs move on from there.
 #pragma once
 
 #include <optional>
@@ -26,11 +31,16 @@ struct SpringMotion {
   Vec F;
   std::vector<std::optional<double>> push;  // by contact: p + E_n^T dy; none where the normal force is given
   double missed = 0;                        // |E F - lambda|
+  double violated = 0;                      // [N] by how far F is not that of springs and friction
   bool carries(const Vec& lambda) const;
   SpringsThatHold springs() const;
 };
 
 // From SharingContact::push. Nothing: not all of them are known, or the search gives up.
 std::optional<SpringMotion> follow_loads(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda);
+
+// How far springs are pushed that have the normal forces N [N] (by contact, 0 where none), whatever friction does. The
+// least slacks are taken where these forces leave them open. None is known where nothing can be wedged in.
+std::vector<std::optional<double>> pushes_of(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& N);
 
 }  // namespace trammel::complementarity

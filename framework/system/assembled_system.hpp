@@ -98,6 +98,9 @@ class AssembledSystem final : public System, public HasRigidMotions {
   double spare_load_as_springs(int group, const Vec& lambda);
   // The springs of a group that hold from here on, up to `round_off` [N]; all are locked if none do.
   std::vector<ContactSpring> find_springs(int group, const Vec& lambda, double round_off);
+  // The springs of a group at rest that press with the normal forces N [N] (by contact) from before it came to rest;
+  // none where no contact can be wedged in.
+  std::vector<ContactSpring> springs_pushed_by(int group, const Vec& lambda, const Vec& N);
   // Such forces of a group; those that leave their cones least, if there are none.
   std::vector<Carried> carried_as_springs(int group, const Vec& lambda);
   double largest_load(int group, const Vec& lambda);  // [N] the largest of their forces

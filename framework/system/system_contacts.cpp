@@ -81,6 +81,10 @@ std::vector<ContactSpring> AssembledSystem::find_springs(int group, const Vec& l
   return loads.find_springs_with_sliding(group, p.shares.moved_with_sliding(group), round_off);
 }
 
+std::vector<ContactSpring> AssembledSystem::springs_pushed_by(int group, const Vec& lambda, const Vec& N) {
+  return parts_->shares.prepared(group, lambda).springs_pushed_by(group, N);
+}
+
 std::vector<Carried> AssembledSystem::carried_as_springs(int group, const Vec& lambda) {
   const ContactLoads& loads = parts_->shares.prepared(group, lambda);
   return loads.carried_as_springs(group, parts_->shares.moved_with_sliding(group));

@@ -25,7 +25,8 @@ TEST(NearbySolution, IsContinuedWhicheverOfThreeItIs) {
     const Vec F_near{{N[0], ratio * N[0], N[1], ratio * N[1]}};
     const auto solved = [&](const Vec& b, Vec& F, Vec& a) {
       std::vector<double> violation;
-      return solve_contacts(points, A, b, F, a, {0, 0}, violation, {F_near, A * F_near + Vec{{-1, 0, -1, 0}}}).outcome;
+      return solve_contacts(points, A, b, F, a, {0, 0}, violation, {{F_near, A * F_near + Vec{{-1, 0, -1, 0}}}})
+          .outcome;
     };
     for (const double more : {-1e-2, 0.0, 1e-2}) {
       Vec F, a;
@@ -53,7 +54,8 @@ TEST(NearbySolution, MayBeNone) {
     Vec F, a;
     std::vector<double> violation;
     const std::vector<double> nothing(problem.points.size(), 0);
-    const ContactSolution found = solve_contacts(problem.points, problem.A, problem.b, F, a, nothing, violation, none);
+    const ContactSolution found =
+        solve_contacts(problem.points, problem.A, problem.b, F, a, nothing, violation, {none});
     ASSERT_EQ(found.outcome, LcpOutcome::solved) << problem.kind << ", " << i;
     EXPECT_LE(found.violation, largest_violation) << problem.kind << ", " << i;
   }

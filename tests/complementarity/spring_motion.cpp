@@ -103,5 +103,39 @@ TEST(SpringMotion, IsNoneOfContactsWhoseNormalForcesAreGiven) {
   EXPECT_FALSE(follow_loads(compliant, Mat::Ones(1, 2), Vec{{4}}));
 }
 
+// A strut from the floor's right to the ceiling's left corner: the other springs are slack by as much.
+TEST(PushesOf, AreTheForcesWithTheSlacksThatTheyLeave) {
+  const Box box(0.9, 0.6, 0.6);
+  const auto push = pushes_of(box.contacts, box.E, Vec{{0, 12, 7, 0}});
+  for (const auto& each : push) ASSERT_TRUE(each);
+  EXPECT_NEAR(*push[0], -7, accurate * 12);
+  EXPECT_NEAR(*push[1], 12, accurate * 12);
+  EXPECT_NEAR(*push[2], 7, accurate * 12);
+  EXPECT_NEAR(*push[3], -12, accurate * 12);
+}
+
+TEST(PushesOf, AreNotKnownWhereNothingCanBeWedgedIn) {
+  Box box(0.5, 0.6, 0.6);
+  box.contacts.resize(2);  // the floor alone
+  const Mat E = box.E.leftCols(4);
+  for (const auto& each : pushes_of(box.contacts, E, Vec{{5, 5}})) EXPECT_FALSE(each);
+}
+
+// Its ends could also slip until nothing presses but the weight. Springs that friction holds do not move.
+TEST(SpringMotion, IsNoneWhereFrictionHoldsTheForcesThatSpringsHave) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 50; ++i) {
+    Box box(between(random, 1.5, 3), 0.8, 0.8);
+    const double N_ceiling = between(random, 5, 20), N_floor = N_ceiling + 1;
+    const auto push = pushes_of(box.contacts, box.E, Vec{{0, N_floor, N_ceiling, 0}});
+    for (std::size_t k = 0; k < 4; ++k) box.contacts[k].push = push[k];
+    const double T_floor = between(random, -0.7, 0.7) * N_floor, T_ceiling = between(random, -0.7, 0.7) * N_ceiling;
+    const Vec lambda = box.E * Vec{{0, 0, N_floor, T_floor, N_ceiling, T_ceiling, 0, 0}};
+    const auto motion = follow_loads(box.contacts, box.E, lambda);
+    ASSERT_TRUE(motion && motion->carries(lambda));
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(*motion->push[k], *push[k], accurate * N_floor);
+  }
+}
+
 }  // namespace
 }  // namespace trammel::complementarity

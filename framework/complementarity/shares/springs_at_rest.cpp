@@ -340,21 +340,6 @@ class Search {
   Found best_;
 };
 
-// Whether forces inside the cones are in balance with each other, so that they may be of any size (a strut that locks).
-bool may_wedge(const std::vector<SharingContact>& contacts, const Mat& E) {
-  std::vector<SharingContact> free;
-  Mat balanced = Mat::Zero(E.rows() + 1, E.cols());
-  balanced.topRows(E.rows()) = E;
-  for (const SharingContact& c : contacts) {
-    if (c.normal < 0) continue;
-    free.push_back(c);
-    balanced(E.rows(), c.normal) = 1;
-  }
-  const Vec of_size_1 = Vec::Unit(E.rows() + 1, E.rows());
-  Vec F;
-  return admissible_forces(free, balanced, of_size_1, F) <= not_carried;
-}
-
 SpringSet set_of(const std::vector<SharingContact>& contacts) {
   SpringSet set;
   for (const SharingContact& c : contacts) set.push_back(c.spring);
@@ -401,6 +386,21 @@ Found best_of_all(const std::vector<SharingContact>& contacts, const Mat& E, con
 }
 
 }  // namespace
+
+bool can_be_wedged_in(const std::vector<SharingContact>& contacts, const Mat& E) {
+  std::vector<SharingContact> free;
+  Mat balanced = Mat::Zero(E.rows() + 1, E.cols());
+  balanced.topRows(E.rows()) = E;
+  for (const SharingContact& c : contacts) {
+    if (c.normal < 0) continue;
+    free.push_back(c);
+    balanced(E.rows(), c.normal) = 1;
+  }
+  if (free.empty()) return false;
+  const Vec of_size_1 = Vec::Unit(E.rows() + 1, E.rows());
+  Vec F;
+  return admissible_forces(free, balanced, of_size_1, F) <= not_carried;
+}
 
 bool forces_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, double carried,
                        Vec& F) {
@@ -459,7 +459,7 @@ std::optional<SpringsThatHold> find_springs(const std::vector<SharingContact>& c
   Found found;
   if (!contains(before, Spring::undecided) && !contains(before, Spring::locked))
     found = Search(contacts, E, push, lambda).among_reached(before, round_off);
-  const bool wedged_in = may_wedge(contacts, E);
+  const bool wedged_in = can_be_wedged_in(contacts, E);
   Vec begin;
   if (found.F.size() == 0 || (!(found.spare >= -round_off) && !wedged_in))
     found = best_of_all(contacts, E, push, lambda, begin);

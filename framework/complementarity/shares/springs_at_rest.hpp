@@ -33,6 +33,9 @@
 
 namespace trammel::complementarity {
 
+// Whether forces inside the cones are in balance with each other, so that they may be of any size (a strut that locks).
+bool can_be_wedged_in(const std::vector<SharingContact>& contacts, const Mat& E);
+
 // Fills F; false if no such forces have the resultants lambda. `carried`: the largest |E F - lambda| / |lambda|. Here
 // and below, contacts whose springs are decided press or part as they say.
 [[nodiscard]] bool forces_as_springs(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda,

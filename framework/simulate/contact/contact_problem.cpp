@@ -103,6 +103,18 @@ complementarity::NearbySolution ContactProblem::forces_of(const std::vector<Part
   return {F, a};
 }
 
+// In the order of b; NaN in islands where nothing has slid, and where a force is unknown.
+Vec ContactProblem::pressed_until_now() const {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::size_t> island = islands();
+  std::vector<bool> slid(who.size(), false);
+  for (std::size_t i = 0; i < who.size(); ++i) slid[island[i]] = slid[island[i]] || who[i].slid_until_now;
+  Vec N = Vec::Constant(b_.size(), unknown);
+  for (std::size_t i = 0; i < who.size(); ++i)
+    if (points_[i].normal >= 0 && slid[island[i]]) N[points_[i].normal] = who[i].pressed_until_now.value_or(unknown);
+  return N;
+}
+
 complementarity::ContactSolution ContactProblem::solve_once(const Mat& A, const std::vector<Participant>& nearby,
                                                             Search search) {
   for (std::size_t i = 0; i < who.size(); ++i) {
@@ -123,8 +135,8 @@ complementarity::ContactSolution ContactProblem::solve_once(const Mat& A, const 
     points.push_back(apart(points[i], who[i].pressed));
     nothing.push_back(who[i].nothing);
   }
-  const complementarity::ContactSolution solution =
-      complementarity::solve_contacts(points, A, b_, F_, a_, nothing, violation, forces_of(nearby), search);
+  const complementarity::ContactSolution solution = complementarity::solve_contacts(
+      points, A, b_, F_, a_, nothing, violation, {forces_of(nearby), pressed_until_now()}, search);
   for (std::size_t i = 0; i < who.size(); ++i) who[i].violation = violation[i];
   return solution;
 }

@@ -36,6 +36,8 @@ struct Participant {
   Tangential direction = Tangential::Zero();  // sliding: of the slip velocity, length 1
   bool let_go = false;                        // resting: mu applies from the start; afterwards: mu_0 did not hold it
   bool yielded = false;  // resting, let go: its friction has reached its bound and does not hold it there
+  bool slid_until_now = false;
+  std::optional<double> pressed_until_now = {};  // [N]
   double pressed = -1;  // [N] the normal force of its friction or of the bound of it, where springs decide it (rule 15)
 
   double nothing = 0;     // accelerations or velocities up to this count as 0 in its island
@@ -64,7 +66,8 @@ class ContactProblem {
   void prepare(model::AssembledSystem& system);  // finds their directions, at the system's point
   // On entry `a_n` and `a_t` of each participant are its accelerations without the forces sought. Each island is a
   // problem of its own: no scale or tolerance of one counts in another. `nearby`: the participants, with what was found
-  // for them, at nearly the same state; solutions near these are sought first.
+  // for them, at nearly the same state; solutions near these are sought first, after rest where the forces until now
+  // are known (forces_at_rest.hpp).
   using Search = complementarity::ModeSearch;
   [[nodiscard]] complementarity::ContactSolution solve(const std::vector<Participant>& nearby = {},
                                                        Search search = Search::of_few_contacts);
@@ -138,6 +141,7 @@ class ContactProblem {
   bool let_slipping_go();
   void take_found();
   complementarity::ContactSolution solve_once(const Mat& A, const std::vector<Participant>& nearby, Search search);
+  Vec pressed_until_now() const;
   complementarity::NearbySolution forces_of(const std::vector<Participant>& nearby) const;
   Mat yielding() const;                           // the Delassus matrix of contacts that are not quite rigid
   double no_slip(std::size_t participant) const;  // [m/s^2]

@@ -106,6 +106,8 @@ std::vector<Participant> Participants::gather(const std::vector<int>& candidates
   for (const int i : candidates) {
     Participant p{.contact = i};
     add_friction(now, p);
+    p.slid_until_now = at_.before.contacts[i].closed && at_.before.contacts[i].friction == Friction::slide;
+    p.pressed_until_now = at_.pressed_until_now(i);
     who.push_back(p);
   }
   for (int i = 0; i < int(at_.modes.contacts.size()); ++i) {

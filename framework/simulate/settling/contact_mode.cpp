@@ -4,6 +4,7 @@
 
 #include "simulate/settling/contact_events.hpp"
 #include "simulate/settling/latches.hpp"
+#include "simulate/settling/pressed_until_now.hpp"
 
 namespace trammel::simulate {
 
@@ -44,6 +45,7 @@ void ContactModes::begin(const State& state) {
   at_.shared_before.resize(system_.model().contacts.size());
   for (std::size_t i = 0; i < at_.shared_before.size(); ++i) at_.shared_before[i] = system_.sharing(int(i)).shared;
   carried_.keep(state, at_.before);
+  find_pressed(scene_, at_);
   impacts_.forget_losses();
 }
 
@@ -54,6 +56,7 @@ bool ContactModes::strike(State& state, const ContactChanges& changes) {
   if (changes.struck.empty() || !any_approaches()) return false;
   const auto impact = impacts_.strike(state, changes);
   if (impact.outcome != LcpOutcome::solved) fail_without_impact(scene_, unsolved(state.t, impact), at_);
+  forget_pressed_by_impact(scene_, at_);
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include "simulate/settling/contact_events.hpp"
 #include "simulate/settling/contact_failure.hpp"
 #include "simulate/settling/latches.hpp"
+#include "simulate/settling/pressed_until_now.hpp"
 
 namespace trammel::simulate {
 
@@ -75,6 +76,7 @@ ContactSolution ImpactWithoutCollision::strike(State& state, const ContactChange
       return others;
     }
     lock_latches(scene_, state, changes, at_, events);
+    forget_pressed_by_impact(scene_, at_);
     const ContactSolution solution = decision_.instant().decide(state, changes, true);
     if (solution.outcome != LcpOutcome::no_solution || left == 0) return solution;
     without_collision = true;

@@ -35,6 +35,32 @@ void SpringBounds::take_springs_before() {
   }
 }
 
+// Out of sliding, with normal forces that are known.
+bool SpringBounds::came_to_rest(const model::SharedRows& group) const {
+  if (has_sliding(group)) return false;
+  bool slid = false;
+  for (const auto* directions : {&group.basis, &group.implied})
+    for (const model::ContactDirection& d : *directions) {
+      const model::ContactMode& before = at_.before.contacts[std::size_t(d.contact)];
+      if (!at_.pressed_until_now(d.contact)) return false;
+      slid = slid || (before.closed && before.friction == model::ContactMode::Friction::slide);
+    }
+  return slid;
+}
+
+// Springs are pushed as far as they were while their contacts slid. True if there are any such springs.
+bool SpringBounds::take_springs_of_sliding() {
+  Vec N(Eigen::Index(at_.modes.contacts.size()));
+  for (int i = 0; i < int(N.size()); ++i) N[i] = at_.pressed_until_now(i).value_or(0);
+  bool any = false;
+  for (int g = 0; g < int(at_.modes.shared.size()); ++g) {
+    if (!came_to_rest(at_.modes.shared[std::size_t(g)])) continue;
+    const auto springs = system_.springs_pushed_by(g, forces_.lambda(), N);
+    if (!springs.empty() && take_springs(springs, at_.modes)) any = true;
+  }
+  return any;
+}
+
 // By contact: what members of groups carry as springs, if such forces do not hold those at rest. `held` are at their
 // bounds beside sliding ones (rule 12).
 std::map<int, model::Carried> SpringBounds::carried_by_springs(const std::vector<Participant*>& held) {
@@ -57,6 +83,7 @@ bool SpringBounds::bound_by_springs(const State& state, const std::vector<Partic
   const bool any_bounded = std::any_of(problem_.who.begin(), problem_.who.end(), bounded);
   take_springs_before();
   if ((at_.modes.shared.empty() && !any_bounded) || !forces_.exist(state)) return false;
+  if (take_springs_of_sliding()) forces_.find(state);
   if (!any_bounded) without_bounds_ = problem_.who;
   const std::map<int, model::Carried> carried = carried_by_springs(held);
   if (rounds_ > most_rounds) return false;  // rest stays by other forces: the springs of these groups are locked

@@ -22,6 +22,8 @@ class SpringBounds {
 
  private:
   void take_springs_before();
+  bool came_to_rest(const model::SharedRows& group) const;
+  bool take_springs_of_sliding();
   std::map<int, model::Carried> carried_by_springs(const std::vector<Participant*>& held);
   model::Carried carried_in_modes(int contact);
 

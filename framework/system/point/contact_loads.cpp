@@ -226,8 +226,8 @@ ContactLoads::AsSprings ContactLoads::as_springs(int group, Sharing all) const {
   result.spare_load =
       complementarity::spare_load_as_springs(all.contacts, all.E, push(group, all), resultants, &result.forces);
   const auto motion = complementarity::follow_loads(all.contacts, all.E, resultants);
-  if (motion && !motion->carries(resultants)) {
-    result.spare_load = std::min(result.spare_load, -motion->missed);
+  if (motion) {
+    if (!motion->carries(resultants)) result.spare_load = std::min(result.spare_load, -motion->missed);
     result.forces = motion->F;
   }
   result.contacts = std::move(all.contacts);
@@ -258,6 +258,19 @@ std::vector<ContactSpring> ContactLoads::find_springs(int group, double round_of
 
 std::vector<ContactSpring> ContactLoads::find_springs_with_sliding(int group, const Mat& E, double round_off) const {
   return springs_of(group, with_springs_that_slide(group, E), round_off);
+}
+
+std::vector<ContactSpring> ContactLoads::springs_pushed_by(int group, const Vec& N) const {
+  const Group& g = groups_[std::size_t(group)];
+  Vec of_members(Eigen::Index(g.members.size()));
+  for (std::size_t i = 0; i < g.members.size(); ++i) of_members[Eigen::Index(i)] = N[g.members[i].contact];
+  const auto pushes = complementarity::pushes_of(sharing(g), g.E, of_members);
+  std::vector<ContactSpring> springs;
+  for (std::size_t i = 0; i < pushes.size(); ++i)
+    if (const auto& push = pushes[i])
+      springs.push_back(
+          {g.members[i].contact, *push > 0 ? complementarity::Spring::presses : complementarity::Spring::parts, push});
+  return springs;
 }
 
 std::vector<Carried> ContactLoads::carried_as_springs(int group, const Mat& E) const {

@@ -88,6 +88,9 @@ class ContactLoads {
   // slide; all are locked if none hold.
   std::vector<ContactSpring> find_springs(int group, double round_off) const;
   std::vector<ContactSpring> find_springs_with_sliding(int group, const Mat& E, double round_off) const;
+  // Springs pushed by the normal forces N [N] (by contact of the system) of a group at rest, after `prepare`:
+  // complementarity::pushes_of. Nothing where none is known.
+  std::vector<ContactSpring> springs_pushed_by(int group, const Vec& N) const;
   // Normal force and friction [N] of each contact, those that slide included, from such forces. E is not used where
   // nothing slides.
   std::vector<Carried> carried_as_springs(int group, const Mat& E) const;

@@ -340,5 +340,52 @@ TEST(BoxBetweenFloorAndCeiling, LetsGoAsOnStiffSpringsWhereItsLoadsTurnBack) {
   EXPECT_EQ(whole.events, pieces.events);
 }
 
+// A moment presses opposite ends of a box against floor and ceiling while it slides, N_floor + N_ceiling = S, N_floor -
+// N_ceiling = W. It comes to rest, the moment ends, and friction holds the box as wedged in as it was: with friction
+// -F/2 -+ a S/(2 b) at the ends, that of the floor is at its bound where the box is pushed by F = mu (S + W) - a S/b.
+TEST(BoxBetweenFloorAndCeiling, StaysWedgedInAsItWasWhereItsSlipEnds) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 8; ++i) {
+    const double mu = between(random, 0.5, 0.9), b = between(random, 0.5, 1), a = b * mu * between(random, 0.3, 0.7);
+    const double m = between(random, 0.5, 3), W = m * g, S = between(random, 2.5, 6) * W;
+    const double moment = a * S - mu * b * W, lets_go = mu * (S + W) - a * S / b;
+    json s = scene_of({{"type", "rigid_body"},
+                       {"mass", m},
+                       {"inertia", m * (a * a + b * b) / 3},
+                       {"position", {0, 0}},
+                       {"velocity", {mu * S / m * between(random, 0.15, 0.3), 0}},
+                       {"markers", {{"bl", {-a, -b}}, {"br", {a, -b}}, {"tl", {-a, b}}, {"tr", {a, b}}}}});
+    for (const char* corner : {"bl", "br", "tl", "tr"}) {
+      const double y = corner[0] == 'b' ? -b : b;
+      s["contacts"][corner] = contact(fmt::format("b.{}", corner), {0, y}, {0, y < 0 ? 1 : -1}, mu);
+    }
+    const double pulled = between(random, 0, 0.3) * mu * S;  // while it slides
+    const std::string push =
+        fmt::format("={:.17g}*max(0,t-0.8)+{:.17g}*max(0,min(1,(0.6-t)*5))", lets_go / 0.5, pulled);
+    s["forces"]["hand"] = {{"type", "load"},
+                           {"on", "b.com"},
+                           {"force", {{"x", push}, {"y", 0}}},
+                           {"moment", fmt::format("={:.17g}*max(0,min(1,(0.75-t)*4))", -moment)}};
+    s["simulate"]["until"] = 1.31;
+    const std::string which = fmt::format("box {}", i);
+    const Finished run = run_text(s.dump());
+    ASSERT_TRUE(run.done()) << which << ": " << run.report.reason;
+    EXPECT_TRUE(run.result["warnings"].empty()) << which << ": " << run.result["warnings"].dump();
+    const auto slips = run.of_kind("slip");  // at the start, and where it lets go
+    ASSERT_FALSE(slips.empty()) << which;
+    EXPECT_NEAR(slips.back().t, 1.3, 1e-6) << which;
+    const auto sticks = run.of_kind("stick");
+    ASSERT_EQ(sticks.size(), 4) << which;
+    EXPECT_LT(sticks.back().t, 0.6) << which;
+    const auto later = [&](const Event& e) { return e.t > sticks.back().t && e.t < 1.3 - 1e-6; };
+    EXPECT_TRUE(std::none_of(slips.begin(), slips.end(), later)) << which;
+    if (i > 0) continue;
+    const scene::Scene scene = scene::Scene::parse(s.dump(), "test.json", {});
+    const Logs whole = run_in_pieces(scene, 1LL << 60), pieces = run_in_pieces(scene, 1);
+    EXPECT_EQ(whole.series, pieces.series);
+    EXPECT_EQ(whole.events, pieces.events);
+  }
+}
+
 }  // namespace
 }  // namespace trammel::test
