@@ -36,6 +36,15 @@ bool same_springs(const std::vector<model::ContactMode>& one, const std::vector<
   return std::equal(one.begin(), one.end(), other.begin(), other.end(), same);
 }
 
+// With the loads that joints have under these springs.
+bool springs_hold(model::AssembledSystem& system, const Vec& lambda) {
+  for (int group = 0; group < int(system.modes().shared.size()); ++group) {
+    const double round_off = round_off_of_loads * system.largest_load(group, lambda);
+    if (!(system.spare_load_as_springs(group, lambda) >= -round_off)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 bool any_closed(const model::AssembledSystem& system) {
@@ -80,8 +89,12 @@ bool renew_springs(const ContactScene& scene, const State& state) {
     if (!take_springs(scene.system.find_springs(group, lambda, round_off), modes)) return false;
   }
   if (same_springs(modes.contacts, scene.system.modes().contacts)) return false;
+  const model::Modes before = scene.system.modes();
   scene.system.set_modes(modes);
-  return true;
+  scene.system.move_to(state.t, state.q, state.v);
+  if (springs_hold(scene.system, lambda)) return true;
+  scene.system.set_modes(before);
+  return false;
 }
 
 void follow_loads(const ContactScene& scene, const State& state) {

@@ -23,7 +23,26 @@ constexpr double round_off_of_joints = 1e-12;
 // Relative to the load of a joint: the fixed-point iteration ends at changes up to this. Each change is about mu times
 // the one before.
 constexpr double round_off_of_loads = 1e-13;
-constexpr int most_rounds = 50;
+constexpr int most_rounds = 100;
+constexpr int most_moves = 10;  // in a row: doublings of loads, or halvings of their change
+
+using LoadsOfJoints = std::map<int, double>;
+
+bool same_loads(const LoadsOfJoints& one, const LoadsOfJoints& other) {
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.second - b.second) <= round_off_of_loads * std::max(a.second, b.second);
+  });
+}
+
+LoadsOfJoints doubled(LoadsOfJoints loads) {
+  for (auto& [joint, load] : loads) load *= 2;
+  return loads;
+}
+
+LoadsOfJoints halfway(LoadsOfJoints from, const LoadsOfJoints& to) {
+  for (auto& [joint, load] : from) load = (load + to.at(joint)) / 2;
+  return from;
+}
 
 }  // namespace
 
@@ -224,29 +243,43 @@ Mat SharedRowsAtPoint::moved_with_sliding(int group) {
   return complementarity::independent_rows(moved);
 }
 
-void SharedRowsAtPoint::solve(int group, const Vec& lambda, const LoadsOfJoints& of_joints) {
+ContactLoads::Held SharedRowsAtPoint::solve(int group, const Vec& lambda, const LoadsOfJoints& of_joints) {
+  using Held = ContactLoads::Held;
   ContactLoads& loads = contacts_.loads;
-  bool found = loads.solve(group, lambda, [&](int contact) { return bounds(contact, lambda, of_joints); });
-  if (!found && !contacts_.modes.shared[std::size_t(group)].sliding.empty())
-    found = loads.solve_with_sliding(group, moved_with_sliding(group));
-  if (!found) loads.solve_beyond_cones(group);
+  const Held held = loads.solve(group, lambda, [&](int contact) { return bounds(contact, lambda, of_joints); });
+  if (held != Held::beyond_cones) return held;
+  if (!contacts_.modes.shared[std::size_t(group)].sliding.empty())
+    if (loads.solve_with_sliding(group, moved_with_sliding(group))) return Held::with_sliding;
+  loads.solve_beyond_cones(group);
+  return held;
 }
 
-// The loads of joints at rest bound the forces that are shared, and follow from them: a fixed-point iteration.
+// The loads of joints at rest bound the forces that are shared, and follow from them: a fixed-point iteration. Larger
+// loads hold whatever smaller ones do. So it begins with loads that hold the group, as far as any do, and where those
+// that follow no longer hold it as well, it goes halfway back. If it comes to no end so, no loads are those of forces
+// that they bound; the last that followed count, under which the group is not held so.
 const ContactLoads& SharedRowsAtPoint::solved(int group, const Vec& lambda) {
+  using Held = ContactLoads::Held;
   follow();
   SolvedAt& at = solved_at_[std::size_t(group)];
   if (at.is(at_, lambda)) return contacts_.loads;
   at = {at_.number, at_.configuration, lambda, loads_as_springs(group, lambda)};
-  for (int round = 0; round < most_rounds; ++round) {
-    solve(group, lambda, at.of_joints);
+  Held best = Held::beyond_cones;
+  LoadsOfJoints last, followed = at.of_joints;  // the last loads under which it was held best, those that followed
+  for (int round = 0, moves = 0; round < most_rounds && moves <= most_moves; ++round) {
+    const Held held = solve(group, lambda, at.of_joints);
+    if (at.of_joints.empty()) return contacts_.loads;
+    if (held == Held::beyond_cones || held < best) {
+      at.of_joints = last.empty() ? doubled(at.of_joints) : halfway(at.of_joints, last), ++moves;
+      continue;
+    }
     LoadsOfJoints next = loads_as_solved(group, lambda);
-    const bool same = std::equal(next.begin(), next.end(), at.of_joints.begin(), [](const auto& a, const auto& b) {
-      return std::abs(a.second - b.second) <= round_off_of_loads * std::max(a.second, b.second);
-    });
-    at.of_joints = std::move(next);
-    if (same) break;
+    last = std::exchange(at.of_joints, next);
+    if (same_loads(next, last)) return contacts_.loads;
+    best = held, followed = std::move(next), moves = 0;
   }
+  at.of_joints = std::move(followed);
+  (void)solve(group, lambda, at.of_joints);
   return contacts_.loads;
 }
 

@@ -59,7 +59,7 @@ class SharedRowsAtPoint {
   LoadsOfJoints loads_as_solved(int group, const Vec& lambda);
   double load_of_joint(int contact, const Vec& lambda);
   ContactLoads::Bounds bounds(int contact, const Vec& lambda, const LoadsOfJoints& of_joints);
-  void solve(int group, const Vec& lambda, const LoadsOfJoints& of_joints);
+  ContactLoads::Held solve(int group, const Vec& lambda, const LoadsOfJoints& of_joints);
   const ContactLoads& solved(int group, const Vec& lambda);  // with the forces of its contacts
 
   // The system's point at which `loads` has the forces of a group. Contacts ask for theirs one after the other.

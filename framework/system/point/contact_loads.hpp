@@ -57,13 +57,15 @@ class ContactLoads {
     begin(group, lambda);
     for (Member& member : groups_[std::size_t(group)].members) member.bounds = bounds(member.contact);
   }
-  // The forces of all contacts of a group. False: there are no admissible ones.
+  // What holds a group, the worst first.
+  enum class Held { beyond_cones, with_sliding, by_any_forces, as_springs };
+  // The forces of all contacts of a group. beyond_cones: there are no admissible ones.
   template <class BoundsOf>
-  [[nodiscard]] bool solve(int group, const Vec& lambda, BoundsOf&& bounds) {
+  [[nodiscard]] Held solve(int group, const Vec& lambda, BoundsOf&& bounds) {
     prepare(group, lambda, bounds);
     Group& g = groups_[std::size_t(group)];
-    if (slack(g) >= -round_off * scale(g)) return true;
-    return (!slides(group) && share_as_springs(g)) || share_admissibly(g, {sharing(g), g.directions, g.E});
+    if (slack(g) >= -round_off * scale(g) || (!slides(group) && share_as_springs(g))) return Held::as_springs;
+    return share_admissibly(g, {sharing(g), g.directions, g.E}) ? Held::by_any_forces : Held::beyond_cones;
   }
   // To be called then: includes sliding contacts. E: the motion caused by the forces of the members, then by that of
   // each sliding contact along n + p t. False: there are still no admissible forces.

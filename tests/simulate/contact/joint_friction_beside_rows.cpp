@@ -1,6 +1,5 @@
 // Friction in joints whose rows, or whose contacts' rows, follow from others: dead centres of a slider-crank, and loads
 // that depend on how contacts share forces.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -429,44 +428,6 @@ TEST(Portal, TipsWhereItsHingesSlipAndItsFeetOpenAtOnce) {
           }
           EXPECT_LE(run.result["counts"]["locating_steps"].get<int>(), 40) << mu << radius << push << legs[0];
         }
-}
-
-// A slide whose guide rubs pushes a box, at whose corners friction shares the weight. The load of the guide's ends
-// passes through 0 while all is at rest.
-TEST(ABoxPushedByASlide, MovesAlikeHoweverItsContactsAreNamed) {
-  const auto pushed = [](const std::vector<int>& order) {
-    const std::array<std::string, 4> contacts = {
-        R"("between": ["b.l", {"plane": {"point": [0, 0], "normal": [0, 1]}}], "friction": {"type": "coulomb", "static": 0.4, "kinetic": 0.4})",
-        R"("between": ["b.r", {"plane": {"point": [0, 0], "normal": [0, 1]}}], "friction": {"type": "coulomb", "static": 0.4, "kinetic": 0.4})",
-        R"("between": ["b.l", {"plane": {"point": [0, 0], "normal": [1, 0], "on": "d.f"}}], "friction": {"type": "coulomb", "static": 0.5, "kinetic": 0.5})",
-        R"("between": ["b.tl", {"plane": {"point": [0, 0], "normal": [1, 0], "on": "d.f"}}], "friction": {"type": "coulomb", "static": 0.5, "kinetic": 0.5})"};
-    std::string all;
-    for (std::size_t i = 0; i < order.size(); ++i)
-      all += fmt::format(R"({}"c{}": {{"type": "constraint_method", "restitution": 0, {}}})", i == 0 ? "" : ", ", i,
-                         contacts[std::size_t(order[i])]);
-    return run_text(fmt::format(
-        R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
-            "bodies": {{"b": {{"type": "rigid_body", "mass": 1, "inertia": 0.04, "position": [0, 0.3],
-                              "markers": {{"l": [-0.1, -0.3], "r": [0.1, -0.3], "tl": [-0.1, 0.3]}}}},
-                       "d": {{"type": "rigid_body", "mass": 0.8, "inertia": 0.08, "position": [-0.1, 0.3],
-                              "markers": {{"f": [0, 0], "k": [-0.2, -0.15]}}}}}},
-            "forces": {{"k": {{"type": "load", "on": "d.k", "force": {{"x": "=10*t"}}}}}},
-            "joints": {{"g": {{"type": "prismatic", "between": [{{"point": [0, 0.3]}}, "d.com"], "axis": [1, 0],
-                "length": 0.3, "friction": {{"type": "coulomb", "static": 0.1, "kinetic": 0.1}}}}}},
-            "contacts": {{{}}}, "simulate": {{"until": 1}},
-            "record": {{"every": 0.02, "observe": {{"x": "b.com.x"}}}}}})",
-        all));
-  };
-  std::vector<int> order = {0, 1, 2, 3};
-  const Finished first = pushed(order);
-  ASSERT_TRUE(first.done()) << first.report.reason;
-  const double onset = first.of_kind("slip").front().t;
-  while (std::next_permutation(order.begin(), order.end())) {
-    const Finished other = pushed(order);
-    ASSERT_TRUE(other.done()) << other.report.reason;
-    EXPECT_NEAR(other.of_kind("slip").front().t, onset, 1e-8);
-    EXPECT_NEAR(other.end("x"), first.end("x"), 1e-7);
-  }
 }
 
 }  // namespace
