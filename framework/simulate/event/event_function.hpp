@@ -51,6 +51,7 @@ struct EventFunction {
   double steepest = 0;          // slide: largest rate of change of the slip since it began [m/s^2]
   bool reported = false;        // it had the last event
   bool grazed = false;          // approach: at the instant located last it only touched
+  bool together = false;        // approach: but for drifts it closed at that instant too
   UndirectedSlip undirected{};  // slide in space
 
   ValueAndSlope now{}, next{};  // at the ends of the step examined; slopes of forces and accelerations are not known

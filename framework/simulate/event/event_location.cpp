@@ -8,7 +8,7 @@
 
 #include "simulate/event/earlier_events.hpp"
 #include "simulate/event/functions_of_modes.hpp"
-#include "simulate/event/grazes.hpp"
+#include "simulate/event/onsets.hpp"
 #include "simulate/event/thresholds.hpp"
 
 namespace trammel::simulate {
@@ -55,7 +55,8 @@ bool happens_too(const EventFunction& function, const model::AssembledSystem& sy
   if (function.by_force()) return end.f <= vanished_force * function.bound && !function.just_handled();
   if (function.kind == Kind::slide)
     return end.f <= function.noise && !function.just_handled() && end.slope < -scale.no_acceleration();
-  return end.f <= same_instant(system, function.contact, scale) && falls && !function.grazed;
+  const bool touches = function.together || end.f <= same_instant(system, function.contact, scale);
+  return touches && falls && !function.grazed;
 }
 
 // Adds the changes of all functions whose event is at the same instant: the end of the step, which was shortened to the
@@ -142,6 +143,7 @@ EventLocation::Found EventLocation::locate(const State& now, double& h, State& n
     if (passes_infinity(steps)) return Found::passes_infinity;
   }
   mark_grazes(functions_, system_, scale_, values_, next);
+  mark_together(functions_, *first.function, system_, scale_, next);
   const bool passes = first.function->grazed;
   if (!passes) report(*first.function, system_.model(), changes_);
   report_others(functions_, system_, scale_, changes_);

@@ -1,6 +1,6 @@
 #include "simulate/event/trial_steps.hpp"
 
-#include "simulate/event/grazes.hpp"
+#include "simulate/event/onsets.hpp"
 #include "simulate/event/trial_step.hpp"
 
 namespace trammel::simulate {

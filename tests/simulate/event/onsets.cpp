@@ -1,5 +1,5 @@
 // When a gap that closes only touches.
-#include "simulate/event/grazes.hpp"
+#include "simulate/event/onsets.hpp"
 
 #include <gtest/gtest.h>
 
