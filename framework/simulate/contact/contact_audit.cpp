@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "linear/dense/eps.hpp"
 #include "simulate/contact/force_noise.hpp"
 #include "simulate/results/observable.hpp"
 
@@ -40,9 +41,22 @@ double drift_beside(double speed, Scale scale) {
 
 }  // namespace
 
-void ContactAudit::Worst::raise_to(int i, double when, double amount, double scale) {
-  if (!(amount > std::max(little, relative) * scale)) return;
-  contact = i, t = when, force = amount, relative = amount / scale;
+void ContactAudit::take_force(int contact, double force) {
+  double& largest = largest_[contact];
+  largest = std::max(largest, force);
+}
+
+bool ContactAudit::counts(const Worst& worst) const {
+  if (worst.contact < 0) return false;
+  const auto largest = largest_.find(worst.contact);
+  return largest == largest_.end() || worst.force > eps * largest->second;
+}
+
+void ContactAudit::raise(Worst& worst, int contact, double t, double amount, double scale) {
+  take_force(contact, scale);
+  if (!counts(worst)) worst = {};
+  const Worst found{contact, t, amount, amount / scale};
+  if (amount > std::max(little, worst.relative) * scale && counts(found)) worst = found;
 }
 
 void ContactAudit::look(model::AssembledSystem& system, const State& state, const ContactScale& scale) {
@@ -95,6 +109,7 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
     const model::ContactEntry& entry = system.model().contacts[std::size_t(i)];
     const double N = system.normal_force(i, lambda);
     const model::Tangential T = system.friction_force(i, lambda);
+    take_force(i, std::max(std::abs(N), T.norm()));
     const auto first = Eigen::Index(forces.size());
     if (!entry.joint) directions.push_back({i, 0}), forces.push_back(N);  // the load of bearings has no direction
     for (int k = 0; k < system.tangents(i) && entry.friction; ++k)
@@ -120,10 +135,10 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
 }
 
 void ContactAudit::raise_worst(int contact, double t, const Excess& excess, const ActsOn& acts, const Scale& scale) {
-  if (excess.pull > acts.noise) pull_.raise_to(contact, t, excess.pull, acts.force);
-  if (excess.beyond_cone > acts.noise) beyond_cone_.raise_to(contact, t, excess.beyond_cone, acts.force);
+  if (excess.pull > acts.noise) raise(pull_, contact, t, excess.pull, acts.force);
+  if (excess.beyond_cone > acts.noise) raise(beyond_cone_, contact, t, excess.beyond_cone, acts.force);
   if (excess.along_slip > acts.noise && excess.slip > drift_beside(acts.speed, scale))
-    along_slip_.raise_to(contact, t, excess.along_slip, acts.force);
+    raise(along_slip_, contact, t, excess.along_slip, acts.force);
 }
 
 void ContactAudit::look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda,
@@ -132,9 +147,9 @@ void ContactAudit::look_at_groups(model::AssembledSystem& system, double t, cons
   for (std::size_t group = 0; group < shared.size(); ++group) {
     const double missing = -system.spare_load(int(group), lambda), largest = system.largest_load(int(group), lambda);
     if (missing > little * largest && missing > noise(system, shared[group], scale))
-      overloaded_.raise_to(shared[group].implied.front().contact, t, missing, largest);
+      raise(overloaded_, shared[group].implied.front().contact, t, missing, largest);
     if (const double off = system.off_span(int(group)); off > dependent)
-      unbalanced_.raise_to(shared[group].implied.front().contact, t, off * largest, largest);
+      raise(unbalanced_, shared[group].implied.front().contact, t, off * largest, largest);
   }
 }
 
@@ -142,21 +157,21 @@ std::vector<std::string> ContactAudit::warnings(const model::Model& model, const
                                                 double no_energy) const {
   std::vector<std::string> texts;
   const auto name = [&model](int contact) { return model.contacts[std::size_t(contact)].path(); };
-  if (pull_.contact >= 0)
+  if (counts(pull_))
     texts.push_back(fmt::format("not to be trusted: {} pulled with {:.3g} N at t = {:.9g} s; a contact only pushes",
                                 name(pull_.contact), pull_.force, pull_.t));
-  if (beyond_cone_.contact >= 0)
+  if (counts(beyond_cone_))
     texts.push_back(fmt::format("not to be trusted: the friction of {} was {:.3g} N beyond its bound at t = {:.9g} s",
                                 name(beyond_cone_.contact), beyond_cone_.force, beyond_cone_.t));
-  if (along_slip_.contact >= 0)
+  if (counts(along_slip_))
     texts.push_back(fmt::format(
         "not to be trusted: the friction of {} pushed along its slip with {:.3g} N at t = {:.9g} s; it only opposes it",
         name(along_slip_.contact), along_slip_.force, along_slip_.t));
-  if (overloaded_.contact >= 0)
+  if (counts(overloaded_))
     texts.push_back(fmt::format(
         "not to be trusted: {} and those it shares rows with carry {:.3g} N more than they can at t = {:.9g} s",
         name(overloaded_.contact), overloaded_.force, overloaded_.t));
-  if (unbalanced_.contact >= 0)
+  if (counts(unbalanced_))
     texts.push_back(fmt::format(
         "not to be trusted: the forces of {} and those it shares rows with are {:.3g} N off those that move the bodies "
         "at t = {:.9g} s",
@@ -191,6 +206,11 @@ void ContactAudit::archive(Archive& a, std::size_t contacts) {
   a("indeterminate", flat);
   indeterminate_.clear();
   for (k = 0; k + 2 < flat.size(); k += 3) indeterminate_[std::max(0, known(flat[k]))] = {flat[k + 1], flat[k + 2]};
+  Vec forces = Vec::Zero(Eigen::Index(contacts));
+  for (const auto& [contact, force] : largest_) forces[contact] = force;
+  a("largest_forces", forces);
+  if (forces.size() != Eigen::Index(contacts)) throw std::length_error("largest_forces");
+  for (std::size_t i = 0; i < contacts; ++i) largest_[int(i)] = forces[Eigen::Index(i)];
 }
 
 }  // namespace trammel::simulate

@@ -2,7 +2,8 @@
 //
 //     N >= 0,   |T| <= mu_0 N  [N],   T . slip <= 0 [W],   work of friction <= 0 [J]
 //
-// The scale of the round-off are the forces that act on the contact itself (force_noise.hpp). Contacts that share rows
+// The scale of the round-off are the forces that act on the contact itself (force_noise.hpp). What is round-off of the
+// largest of them in the run moves nothing: a load that fades away leaves no force at all. Contacts that share rows
 // are checked together (AssembledSystem::spare_load); what they miss counts if it could accelerate a body. Their forces
 // have the resultants that move the bodies only as long as their rows depend on each other (AssembledSystem::off_span).
 // Friction that supplies energy counts where this is more than 1e-8 of all that was lost and supplied, and more than
@@ -36,11 +37,10 @@ class ContactAudit {
   void archive(Archive& a, std::size_t contacts);
 
  private:
-  // The worst violation of one kind, relative to the forces that act on its contact at that instant.
+  // The worst violation of one kind that counts, relative to the forces that act on its contact at that instant.
   struct Worst {
     int contact = -1;
     double t = 0, force = 0, relative = 0;
-    void raise_to(int i, double when, double amount, double scale);
     void archive(Archive& a, const std::string& name);
   };
   // What the force of a contact has beyond its law; not positive where it obeys.
@@ -61,7 +61,12 @@ class ContactAudit {
                       const Vec& lambda, const ContactScale& scale);
   void look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda, const ContactScale& scale);
 
+  void raise(Worst& worst, int contact, double t, double amount, double scale);
+  void take_force(int contact, double force);
+  bool counts(const Worst& worst) const;
+
   Worst pull_, beyond_cone_, along_slip_, overloaded_, unbalanced_;
+  std::map<int, double> largest_;  // [N] by contact: the largest force that acted on it
   std::map<int, Span> indeterminate_;
 };
 

@@ -15,7 +15,7 @@
 
 namespace trammel::simulate {
 
-inline constexpr int checkpoint_format = 6;
+inline constexpr int checkpoint_format = 7;
 
 // Writes values into a JSON object, or reads them back.
 class JsonArchive final : public Archive {

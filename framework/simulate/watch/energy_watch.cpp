@@ -39,6 +39,8 @@ void EnergyWatch::take_moved(const Energy& energy, const Ledger::Totals& totals)
   const double changed = std::abs(start_.elastic) + std::abs(energy.potential - start_.potential) +
                          std::abs(totals.supplied) + std::abs(ledger_.refinements()) + totals.dissipated;
   moved_ = std::max(moved_, start_.kinetic + changed);
+  const bool falls = system_.model().world.gravity.norm() > 0;
+  if (!falls && system_.sizes().nv > 0) most_work_ = std::max(most_work_, work_over_length());
 }
 
 // A small addend keeps round-off of a system at rest from counting. The work of the forces costs an evaluation, so it
@@ -49,7 +51,8 @@ double EnergyWatch::relative_drift(const Energy& energy) {
   const double change = std::abs(drift(energy)), moved = moved_ + round_off * std::abs(ledger_.energy_start());
   none_ = little(0);
   const double without_work = change / (moved + none_);
-  return without_work > unexplained ? change / (moved + little(work_over_length())) : without_work;
+  return without_work > unexplained ? change / (moved + little(std::max(most_work_, work_over_length())))
+                                    : without_work;
 }
 
 // [J] Energy that counts as none in this scene: 1e-8 of the energy of its masses at its speed, which a fall through its
@@ -71,7 +74,7 @@ double EnergyWatch::little(double work) {
 }
 
 // [J] The largest work of a present force over the scene's length. Without gravity, what loads hold at rest has no
-// speed.
+// speed, and a load that fades away later may be all that gives the scene a size: the largest in records so far counts.
 double EnergyWatch::work_over_length() {
   const Vec rates = system_.coordinate_sizes().levers.cwiseInverse();
   return system_.f().cwiseProduct(rates).lpNorm<Eigen::Infinity>() * scale_.scene().length();
@@ -80,6 +83,7 @@ double EnergyWatch::work_over_length() {
 void EnergyWatch::archive(Archive& a) {
   a("start_kinetic", start_.kinetic), a("start_potential", start_.potential), a("start_elastic", start_.elastic);
   a("most_moved", moved_), a("drift_before", drift_before_);
+  a("most_work", most_work_);
 }
 
 }  // namespace trammel::simulate

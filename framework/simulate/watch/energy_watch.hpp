@@ -33,7 +33,7 @@ class EnergyWatch {
   };
   // `energy`: at the system's point.
   Judgement look(const Energy& energy, bool at_end);
-  void take_moved(const Energy& energy, const Ledger::Totals& totals);
+  void take_moved(const Energy& energy, const Ledger::Totals& totals);  // likewise
 
   double drift(const Energy& energy) const { return energy.total() - ledger_.energy(); }  // [J]
   double relative_drift(const Energy& energy);                                            // at the system's point
@@ -52,6 +52,7 @@ class EnergyWatch {
   Energy start_;
   double moved_ = 0;                        // [J]
   double none_ = 0;                         // [J]
+  double most_work_ = 0;                    // [J] without gravity: the largest work_over_length so far
   double drift_before_ = least_divergence;  // relative, in the record before; at least this
   static constexpr double least_divergence = 1e3;
 };

@@ -143,6 +143,30 @@ TEST(ContactAudit, DoesNotTellRoundOff) {
       EXPECT_THAT(warnings_of(beside(1, 0.01 * (1 + part), 0, on_block), {0}), IsEmpty()) << part;
 }
 
+// No gravity: a load presses a block on the floor, then fades away until its square is no number any more. What is left
+// pulls and pushes by round-off of the largest force.
+TEST(ContactAudit, DoesNotTellWhatIsLeftOfALoadThatFadedAway) {
+  const std::string mu = R"({"type": "coulomb", "static": 0.4, "kinetic": 0.4})";
+  for (const double at : {0.1, -0.25})
+    for (const double push : {0.0, 3.0})
+      for (const double width : {0.01, 0.02, 0.04}) {
+        const auto fading = [width](double force) { return fmt::format("={}*exp(-((t-0.6)/{})^2)", force, width); };
+        const Finished run = run_text(fmt::format(
+            R"({{"trammel": 1, "space": "planar", "gravity": [0, 0],
+  "bodies": {{"block": {{"type": "rigid_body", "mass": 1, "inertia": 0.1, "position": [0, 0.2],
+             "markers": {{"left": [-0.3, -0.2], "right": [0.3, -0.2], "hand": [{}, 0.1]}}}}}},
+  "forces": {{"load": {{"type": "load", "on": "block.hand", "force": {{"x": "{}", "y": "{}"}}}}}},
+  "contacts": {{"left": {{"type": "constraint_method", "restitution": 0, "friction": {},
+                        "between": ["block.left", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}},
+               "right": {{"type": "constraint_method", "restitution": 0, "friction": {},
+                         "between": ["block.right", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}}}},
+  "simulate": {{"until": 1}}, "record": {{"every": 0.02, "observe": {{"x": "block.com.x"}}}}}})",
+            at, fading(push), fading(-8), mu, mu));
+        ASSERT_TRUE(run.done()) << run.report.reason;
+        EXPECT_TRUE(run.result["warnings"].empty()) << at << push << width << run.result["warnings"].dump();
+      }
+}
+
 // A block on two feet of 5 N, which can hold 1 N and 3 N; springs of equal stiffness would hold 2 N each. Where the
 // push is no more than both can, nothing is reported; where it is, by how little.
 TEST(ContactAudit, ReportsByHowLittleFeetCannotHold) {
