@@ -131,7 +131,11 @@ SpringsThatHold SpringMotion::springs() const {
 
 std::optional<SpringMotion> follow_loads(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda) {
   if (!push_is_known(contacts)) return std::nullopt;
-  const auto near = follow_near(contacts, E, lambda, without_motion(contacts, E, lambda));
+  const NearbySolution still = without_motion(contacts, E, lambda);
+  SpringMotion unmoved{still.F, {}, (lambda - E * still.F).norm()};
+  for (const SharingContact& c : contacts) unmoved.push.push_back(c.push);
+  if (unmoved.carries(lambda)) return unmoved;
+  const auto near = follow_near(contacts, E, lambda, still);
   if (near && near->carries(lambda) && near->violated <= lost_balance * near->F.norm()) return near;
   return follow_near(contacts, E, lambda, {});
 }

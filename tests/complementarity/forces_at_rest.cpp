@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -86,6 +87,74 @@ TEST(ForcesAtRest, AreNoneIfAContactSlidesOrAForceIsUnknown) {
   EXPECT_FALSE(forces_at_rest(problem.points, problem.A, problem.b, N));
   problem.points[0].kind = ContactPoint::Tangent::sliding;
   EXPECT_FALSE(forces_at_rest(problem.points, problem.A, problem.b, s.N(problem)));
+}
+
+ContactPoint resting(int normal, int tangent, int tangents, double mu) {
+  ContactPoint p;
+  p.normal = normal, p.tangent = tangent, p.tangents = tangents, p.kind = ContactPoint::Tangent::resting;
+  p.coefficient = mu;
+  return p;
+}
+
+// A pad whose force is given, at the centre, holds what exceeds the push that the strut holds; another one rubs with
+// coefficient 0. The rows of the pads are the first.
+TEST(ForcesAtRest, ContainTheFrictionOfGivenForces) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 20; ++i) {
+    const Strut s = any_strut(random);
+    const double pressed = between(random, 0.1, 1) * s.weight(), held = between(random, 0.1, 0.9) * s.mu * pressed;
+    const double J = s.m * (s.a * s.a + s.b * s.b) / 3;
+    Mat G(10, 3);                                         // x, y, rotation
+    G << 1, 0, 0, 1, 0, 0,                                // pads
+        0, 1, -s.a, 1, 0, s.b, 0, 1, s.a, 1, 0, s.b,      // floor: normal and tangent of each corner
+        0, -1, s.a, 1, 0, -s.b, 0, -1, -s.a, 1, 0, -s.b;  // ceiling
+    std::vector<ContactPoint> points{resting(-1, 0, 1, s.mu), resting(-1, 1, 1, 0)};
+    points[0].given = points[1].given = pressed;
+    for (int corner = 0; corner < 4; ++corner) points.push_back(resting(2 + 2 * corner, 3 + 2 * corner, 1, s.mu));
+    const Mat A = G * Vec{{1 / s.m, 1 / s.m, 1 / J}}.asDiagonal() * G.transpose();
+    const Vec b = G * Vec{{(s.most() + held) / s.m, -g, 0}};
+    Vec N = Vec::Zero(10);
+    N[4] = (s.S + s.weight()) / 2, N[6] = (s.S - s.weight()) / 2;
+    const auto F = forces_at_rest(points, A, b, N);
+    ASSERT_TRUE(F) << i;
+    EXPECT_LE((A * *F + b).lpNorm<Eigen::Infinity>(), accurate * b.norm()) << i;
+    EXPECT_LE(std::abs((*F)[0]), s.mu * pressed * (1 + accurate)) << i;
+    for (const int normal : {2, 4, 6, 8}) EXPECT_NEAR((*F)[normal], N[normal], accurate * s.S) << i;
+    points[0].given = 0;
+    const auto without = forces_at_rest(points, A, b, N);
+    EXPECT_TRUE(!without || std::abs((*without)[4] - N[4]) > 1e-3 * held) << i;
+  }
+}
+
+// The same in space: friction also holds a push across the plane of the strut, half of it at each end.
+TEST(ForcesAtRest, HoldAStrutInSpaceAgainstAPushAcrossIt) {
+  std::mt19937 random(8);
+  for (int i = 0; i < 20; ++i) {
+    const Strut s = any_strut(random);
+    const double J = s.m * (s.a * s.a + s.b * s.b) / 3, across = between(random, 0.01, 0.1) * s.weight();
+    const double push = (s.least() + s.most()) / 2;
+    Mat G = Mat::Zero(12, 6);  // x, y, z, rotations
+    Vec N = Vec::Zero(12);
+    std::vector<ContactPoint> points;
+    for (int corner = 0; corner < 4; ++corner) {
+      const double x = corner % 2 ? s.a : -s.a, y = corner < 2 ? -s.b : s.b, up = corner < 2 ? 1 : -1;
+      const int row = 3 * corner;
+      G(row, 1) = up, G(row, 5) = up * x;
+      G(row + 1, 0) = 1, G(row + 1, 5) = -y;
+      G(row + 2, 2) = 1, G(row + 2, 3) = y, G(row + 2, 4) = -x;
+      points.push_back(resting(row, row + 1, 2, s.mu));
+    }
+    N[3] = (s.S + s.weight()) / 2, N[6] = (s.S - s.weight()) / 2;
+    const Mat A = G * Vec{{1 / s.m, 1 / s.m, 1 / s.m, 1 / J, 1 / J, 1 / J}}.asDiagonal() * G.transpose();
+    const Vec b = G * Vec{{push / s.m, -g, across / s.m, 0, 0, 0}};
+    const auto F = forces_at_rest(points, A, b, N);
+    ASSERT_TRUE(F) << i;
+    EXPECT_LE((A * *F + b).lpNorm<Eigen::Infinity>(), accurate * b.norm()) << i;
+    for (const int corner : {1, 2}) {
+      EXPECT_NEAR((*F)[3 * corner], N[3 * corner], accurate * s.S) << i;
+      EXPECT_NEAR((*F)[3 * corner + 2], -across / 2, accurate * s.S) << i;
+    }
+  }
 }
 
 // It could also slide back: without the forces until now, either motion may be found.
