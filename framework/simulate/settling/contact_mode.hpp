@@ -112,7 +112,8 @@
 //     any forces. Rule 12 decides groups in which something slides and a contact at rest is at its bound. Which springs
 //     press is part of the modes: while loads change little by little they hold as long as they can, and then pass to
 //     others without an event (renew_springs), but not to such as would be wedged in. Springs of contacts that
-//     can be wedged in follow the loads step by step (complementarity/spring_motion), and let go where they cannot.
+//     can be wedged in follow the loads step by step (complementarity/spring_motion), have the forces of these springs,
+//     and let go where there are none.
 //     Where such contacts come to rest out of sliding, without an impact, they begin with the normal forces that they
 //     had until then (pressed_until_now.hpp), and rest wherever these springs hold them, though they could also slide
 //     back (complementarity/forces_at_rest); otherwise they begin with the least forces.

@@ -143,6 +143,15 @@ bool ContactLoads::share_as_springs(Group& group) {
   return true;
 }
 
+// Of springs that have followed their loads so far. False: they are not known, or do not carry these resultants.
+bool ContactLoads::share_as_pushed(Group& group) {
+  if (group.members.empty()) return false;
+  const auto motion = complementarity::follow_loads(sharing(group), group.E, group.resultants);
+  if (!motion || !motion->carries(group.resultants)) return false;
+  group.forces(group.directions) = motion->F;
+  return true;
+}
+
 std::vector<ContactDirection> ContactLoads::members(int group) const {
   const SharedRows& rows = modes_->shared[std::size_t(group)];
   const Eigen::Index n = basis_size(group);

@@ -64,6 +64,7 @@ class ContactLoads {
   [[nodiscard]] Held solve(int group, const Vec& lambda, BoundsOf&& bounds) {
     prepare(group, lambda, bounds);
     Group& g = groups_[std::size_t(group)];
+    if (!slides(group) && share_as_pushed(g)) return Held::as_springs;
     if (slack(g) >= -round_off * scale(g) || (!slides(group) && share_as_springs(g))) return Held::as_springs;
     return share_admissibly(g, {sharing(g), g.directions, g.E}) ? Held::by_any_forces : Held::beyond_cones;
   }
@@ -127,6 +128,7 @@ class ContactLoads {
   void begin(int group, const Vec& lambda);
   bool share_admissibly(Group& group, const Sharing& sharing);
   bool share_as_springs(Group& group);
+  bool share_as_pushed(Group& group);
   bool slides(int group) const { return !modes_->shared[std::size_t(group)].sliding.empty(); }
   Sharing with_sliding(int group, const Mat& E) const;
   Sharing with_springs_that_slide(int group, const Mat& E) const;

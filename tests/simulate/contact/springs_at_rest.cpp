@@ -367,6 +367,7 @@ TEST(BoxBetweenFloorAndCeiling, StaysWedgedInAsItWasWhereItsSlipEnds) {
                            {"force", {{"x", push}, {"y", 0}}},
                            {"moment", fmt::format("={:.17g}*max(0,min(1,(0.75-t)*4))", -moment)}};
     s["simulate"]["until"] = 1.31;
+    s["record"] = {{"every", 0.02}, {"observe", {{"N_br", "contacts.br.force"}, {"N_tl", "contacts.tl.force"}}}};
     const std::string which = fmt::format("box {}", i);
     const Finished run = run_text(s.dump());
     ASSERT_TRUE(run.done()) << which << ": " << run.report.reason;
@@ -379,6 +380,11 @@ TEST(BoxBetweenFloorAndCeiling, StaysWedgedInAsItWasWhereItsSlipEnds) {
     EXPECT_LT(sticks.back().t, 0.6) << which;
     const auto later = [&](const Event& e) { return e.t > sticks.back().t && e.t < 1.3 - 1e-6; };
     EXPECT_TRUE(std::none_of(slips.begin(), slips.end(), later)) << which;
+    for (std::size_t k = 0; k < run.series.at("t").size(); ++k) {
+      if (const double t = run.series.at("t")[k]; t < sticks.back().t || t > 1.3 - 1e-6) continue;
+      EXPECT_NEAR(run.series.at("N_br")[k], (S + W) / 2, 1e-6 * S) << which << ", " << run.series.at("t")[k] << " s";
+      EXPECT_NEAR(run.series.at("N_tl")[k], (S - W) / 2, 1e-6 * S) << which << ", " << run.series.at("t")[k] << " s";
+    }
     if (i > 0) continue;
     const scene::Scene scene = scene::Scene::parse(s.dump(), "test.json", {});
     const Logs whole = run_in_pieces(scene, 1LL << 60), pieces = run_in_pieces(scene, 1);
