@@ -103,8 +103,9 @@ complementarity::NearbySolution ContactProblem::forces_of(const std::vector<Part
   return {F, a};
 }
 
-// In the order of b; NaN in islands where nothing has slid, and where a force is unknown.
+// In the order of b; NaN in islands where nothing has slid, and where a force is unknown. Empty if nothing has slid.
 Vec ContactProblem::pressed_until_now() const {
+  if (std::none_of(who.begin(), who.end(), [](const Participant& p) { return p.slid_until_now; })) return {};
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::size_t> island = islands();
   std::vector<bool> slid(who.size(), false);

@@ -145,7 +145,10 @@ bool ContactLoads::share_as_springs(Group& group) {
 
 // Of springs that have followed their loads so far. False: they are not known, or do not carry these resultants.
 bool ContactLoads::share_as_pushed(Group& group) {
-  if (group.members.empty()) return false;
+  const auto known = [this](const Member& m) {
+    return m.columns[0] < 0 || modes_->contacts[std::size_t(m.contact)].push.has_value();
+  };
+  if (group.members.empty() || !std::all_of(group.members.begin(), group.members.end(), known)) return false;
   const auto motion = complementarity::follow_loads(sharing(group), group.E, group.resultants);
   if (!motion || !motion->carries(group.resultants)) return false;
   group.forces(group.directions) = motion->F;
