@@ -393,5 +393,49 @@ TEST(BoxBetweenFloorAndCeiling, StaysWedgedInAsItWasWhereItsSlipEnds) {
   }
 }
 
+// On a belt that brakes and stands again, at instants of records. While it brakes, friction makes the box press the
+// ceiling, too. Then a hand pushes it back, and it presses with the other ends, N_floor - N_ceiling = W: both are at
+// their bounds where a (N_floor + N_ceiling) = mu b W.
+TEST(BoxBetweenFloorAndCeiling, LetsGoAtItsBoundAfterItsLoadsHaveJumpedAtARecord) {
+  std::mt19937 random(12);
+  for (int i = 0; i < 8; ++i) {
+    const double mu = between(random, 0.5, 0.8), b = between(random, 0.3, 1), a = mu * b * between(random, 0.55, 0.8);
+    const double m = between(random, 0.5, 3), W = m * g, braked = between(random, 0.6, 0.8) * mu * g;
+    const double lets_go = mu * mu * W * b / a, last = 0.14, speed = braked * last;
+    json s = scene_of({{"type", "rigid_body"},
+                       {"mass", m},
+                       {"inertia", m * (a * a + b * b) / 3},
+                       {"position", {0, 0}},
+                       {"velocity", {speed, 0}},
+                       {"markers", {{"bl", {-a, -b}}, {"br", {a, -b}}, {"tl", {-a, b}}, {"tr", {a, b}}}}});
+    const std::string while_braked = fmt::format("min(max(0,t-0.2),{:.17g})", last);
+    s["bodies"]["belt"] = {
+        {"type", "moving_base"},
+        {"x", fmt::format("={0:.17g}*(min(t,0.2)+{1}-{1}^2/{2:.17g})", speed, while_braked, 2 * last)},
+        {"markers", {{"at", {0, 0}}}}};
+    for (const char* corner : {"bl", "br", "tl", "tr"}) {
+      const double y = corner[0] == 'b' ? -b : b;
+      s["contacts"][corner] = contact(fmt::format("b.{}", corner), {0, y}, {0, y < 0 ? 1 : -1}, mu);
+      s["contacts"][corner]["between"][1]["plane"]["on"] = "belt.at";
+    }
+    const double moment = between(random, 0.2, 0.5) * a * W;
+    s["forces"]["hand"] = {{"type", "load"},
+                           {"on", "b.com"},
+                           {"force", {{"x", fmt::format("={:.17g}*max(0,t-0.9)", -lets_go / 0.3)}, {"y", 0}}},
+                           {"moment", fmt::format("={:.17g}*max(0,min(1,(0.85-t)*4))", -moment)}};
+    s["simulate"]["until"] = 1.3;
+    for (const double every : {0.005, 0.0033}) {
+      s["record"]["every"] = every;
+      const std::string which = fmt::format("box {}, records every {} s", i, every);
+      const Finished run = run_text(s.dump());
+      ASSERT_TRUE(run.done()) << which << ": " << run.report.reason;
+      EXPECT_TRUE(run.result["warnings"].empty()) << which << ": " << run.result["warnings"].dump();
+      const auto slips = run.of_kind("slip");
+      ASSERT_FALSE(slips.empty()) << which;
+      EXPECT_NEAR(slips.front().t, 1.2, 1e-6) << which;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace trammel::test
