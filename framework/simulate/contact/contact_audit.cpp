@@ -41,22 +41,9 @@ double drift_beside(double speed, Scale scale) {
 
 }  // namespace
 
-void ContactAudit::take_force(int contact, double force) {
-  double& largest = largest_[contact];
-  largest = std::max(largest, force);
-}
-
-bool ContactAudit::counts(const Worst& worst) const {
-  if (worst.contact < 0) return false;
-  const auto largest = largest_.find(worst.contact);
-  return largest == largest_.end() || worst.force > eps * largest->second;
-}
-
-void ContactAudit::raise(Worst& worst, int contact, double t, double amount, double scale) {
-  take_force(contact, scale);
-  if (!counts(worst)) worst = {};
-  const Worst found{contact, t, amount, amount / scale};
-  if (amount > std::max(little, worst.relative) * scale && counts(found)) worst = found;
+void ContactAudit::raise(Violation kind, std::size_t island, const WorstForces::Worst& found, double acts) {
+  worst_.take_force(island, acts);
+  if (found.force > little * acts) worst_.raise(kind, island, found);
 }
 
 void ContactAudit::look(model::AssembledSystem& system, const State& state, const ContactScale& scale) {
@@ -109,7 +96,7 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
     const model::ContactEntry& entry = system.model().contacts[std::size_t(i)];
     const double N = system.normal_force(i, lambda);
     const model::Tangential T = system.friction_force(i, lambda);
-    take_force(i, std::max(std::abs(N), T.norm()));
+    worst_.take_force(scale.island(i), std::max(std::abs(N), T.norm()));
     const auto first = Eigen::Index(forces.size());
     if (!entry.joint) directions.push_back({i, 0}), forces.push_back(N);  // the load of bearings has no direction
     for (int k = 0; k < system.tangents(i) && entry.friction; ++k)
@@ -130,26 +117,30 @@ void ContactAudit::look_at_forces(model::AssembledSystem& system, const State& s
       acts.noise = std::max(acts.noise, judged.noise[k]);
       acts.speed = std::max(acts.speed, judged.speed[k]);
     }
-    raise_worst(looked.contact, state.t, looked.excess, acts, scale.of(looked.contact));
+    raise_worst(looked.contact, state.t, looked.excess, acts, scale);
   }
 }
 
-void ContactAudit::raise_worst(int contact, double t, const Excess& excess, const ActsOn& acts, const Scale& scale) {
-  if (excess.pull > acts.noise) raise(pull_, contact, t, excess.pull, acts.force);
-  if (excess.beyond_cone > acts.noise) raise(beyond_cone_, contact, t, excess.beyond_cone, acts.force);
-  if (excess.along_slip > acts.noise && excess.slip > drift_beside(acts.speed, scale))
-    raise(along_slip_, contact, t, excess.along_slip, acts.force);
+void ContactAudit::raise_worst(int contact, double t, const Excess& excess, const ActsOn& acts,
+                               const ContactScale& scale) {
+  const auto raise_if = [&](bool any, Violation kind, double force) {
+    if (any && force > acts.noise) raise(kind, scale.island(contact), {contact, t, force}, acts.force);
+  };
+  raise_if(true, Violation::pull, excess.pull);
+  raise_if(true, Violation::beyond_cone, excess.beyond_cone);
+  raise_if(excess.slip > drift_beside(acts.speed, scale.of(contact)), Violation::along_slip, excess.along_slip);
 }
 
 void ContactAudit::look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda,
                                   const ContactScale& scale) {
   const std::vector<model::SharedRows>& shared = system.modes().shared;
   for (std::size_t group = 0; group < shared.size(); ++group) {
+    const int contact = shared[group].implied.front().contact;
     const double missing = -system.spare_load(int(group), lambda), largest = system.largest_load(int(group), lambda);
     if (missing > little * largest && missing > noise(system, shared[group], scale))
-      raise(overloaded_, shared[group].implied.front().contact, t, missing, largest);
+      raise(Violation::overloaded, scale.island(contact), {contact, t, missing}, largest);
     if (const double off = system.off_span(int(group)); off > dependent)
-      raise(unbalanced_, shared[group].implied.front().contact, t, off * largest, largest);
+      raise(Violation::unbalanced, scale.island(contact), {contact, t, off * largest}, largest);
   }
 }
 
@@ -157,25 +148,25 @@ std::vector<std::string> ContactAudit::warnings(const model::Model& model, const
                                                 double no_energy) const {
   std::vector<std::string> texts;
   const auto name = [&model](int contact) { return model.contacts[std::size_t(contact)].path(); };
-  if (counts(pull_))
+  if (const auto worst = worst_.worst(Violation::pull))
     texts.push_back(fmt::format("not to be trusted: {} pulled with {:.3g} N at t = {:.9g} s; a contact only pushes",
-                                name(pull_.contact), pull_.force, pull_.t));
-  if (counts(beyond_cone_))
+                                name(worst->contact), worst->force, worst->t));
+  if (const auto worst = worst_.worst(Violation::beyond_cone))
     texts.push_back(fmt::format("not to be trusted: the friction of {} was {:.3g} N beyond its bound at t = {:.9g} s",
-                                name(beyond_cone_.contact), beyond_cone_.force, beyond_cone_.t));
-  if (counts(along_slip_))
+                                name(worst->contact), worst->force, worst->t));
+  if (const auto worst = worst_.worst(Violation::along_slip))
     texts.push_back(fmt::format(
         "not to be trusted: the friction of {} pushed along its slip with {:.3g} N at t = {:.9g} s; it only opposes it",
-        name(along_slip_.contact), along_slip_.force, along_slip_.t));
-  if (counts(overloaded_))
+        name(worst->contact), worst->force, worst->t));
+  if (const auto worst = worst_.worst(Violation::overloaded))
     texts.push_back(fmt::format(
         "not to be trusted: {} and those it shares rows with carry {:.3g} N more than they can at t = {:.9g} s",
-        name(overloaded_.contact), overloaded_.force, overloaded_.t));
-  if (counts(unbalanced_))
+        name(worst->contact), worst->force, worst->t));
+  if (const auto worst = worst_.worst(Violation::unbalanced))
     texts.push_back(fmt::format(
         "not to be trusted: the forces of {} and those it shares rows with are {:.3g} N off those that move the bodies "
         "at t = {:.9g} s",
-        name(unbalanced_.contact), unbalanced_.force, unbalanced_.t));
+        name(worst->contact), worst->force, worst->t));
   const double moved = std::abs(ledger.dissipated()) + std::abs(ledger.supplied()) + ledger.friction().lpNorm<1>();
   for (Eigen::Index i = 0; i < ledger.friction().size(); ++i)
     if (-ledger.friction()[i] > std::max(little * moved, no_energy))
@@ -184,19 +175,12 @@ std::vector<std::string> ContactAudit::warnings(const model::Model& model, const
   return texts;
 }
 
-void ContactAudit::Worst::archive(Archive& a, const std::string& name) {
-  a(name + "_contact", contact), a(name + "_t", t), a(name + "_force", force), a(name + "_relative", relative);
-}
-
 void ContactAudit::archive(Archive& a, std::size_t contacts) {
   const auto known = [contacts](double i) {
-    if (!(i >= -1 && i < double(contacts))) throw std::out_of_range("contact");
+    if (!(i >= 0 && i < double(contacts))) throw std::out_of_range("contact");
     return int(i);
   };
-  pull_.archive(a, "pull"), beyond_cone_.archive(a, "beyond_cone");
-  along_slip_.archive(a, "along_slip"), overloaded_.archive(a, "overloaded");
-  unbalanced_.archive(a, "unbalanced");
-  for (const Worst* worst : {&pull_, &beyond_cone_, &along_slip_, &overloaded_, &unbalanced_}) known(worst->contact);
+  worst_.archive(a, contacts);
   Vec flat(Eigen::Index(3 * indeterminate_.size()));
   Eigen::Index k = 0;
   for (const auto& [contact, span] : indeterminate_) {
@@ -205,12 +189,7 @@ void ContactAudit::archive(Archive& a, std::size_t contacts) {
   }
   a("indeterminate", flat);
   indeterminate_.clear();
-  for (k = 0; k + 2 < flat.size(); k += 3) indeterminate_[std::max(0, known(flat[k]))] = {flat[k + 1], flat[k + 2]};
-  Vec forces = Vec::Zero(Eigen::Index(contacts));
-  for (const auto& [contact, force] : largest_) forces[contact] = force;
-  a("largest_forces", forces);
-  if (forces.size() != Eigen::Index(contacts)) throw std::length_error("largest_forces");
-  for (std::size_t i = 0; i < contacts; ++i) largest_[int(i)] = forces[Eigen::Index(i)];
+  for (k = 0; k + 2 < flat.size(); k += 3) indeterminate_[known(flat[k])] = {flat[k + 1], flat[k + 2]};
 }
 
 }  // namespace trammel::simulate

@@ -3,11 +3,12 @@
 //     N >= 0,   |T| <= mu_0 N  [N],   T . slip <= 0 [W],   work of friction <= 0 [J]
 //
 // The scale of the round-off are the forces that act on the contact itself (force_noise.hpp). What is round-off of the
-// largest of them in the run moves nothing: a load that fades away leaves no force at all. Contacts that share rows
-// are checked together (AssembledSystem::spare_load); what they miss counts if it could accelerate a body. Their forces
-// have the resultants that move the bodies only as long as their rows depend on each other (AssembledSystem::off_span).
-// Friction that supplies energy counts where this is more than 1e-8 of all that was lost and supplied, and more than
-// counts as none in the scene: what rests and moves by round-off only exchanges energies of round-off.
+// largest force in its island moves nothing (worst_forces.hpp): a load that fades away leaves no force at all. Contacts
+// that share rows are checked together (AssembledSystem::spare_load); what they miss counts if it could accelerate a
+// body. Their forces have the resultants that move the bodies only as long as their rows depend on each other
+// (AssembledSystem::off_span). Friction that supplies energy counts where this is more than 1e-8 of all that was lost
+// and supplied, and more than counts as none in the scene: what rests and moves by round-off only exchanges energies of
+// round-off.
 // A violation becomes a warning: the run cannot be trusted there. The audit also keeps when contacts were statically
 // indeterminate: closed with rows that depend on each other, so that their forces are not unique
 // (complementarity/shares/carrying_rows.hpp).
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "run/contact_scale.hpp"
+#include "simulate/contact/worst_forces.hpp"
 #include "simulate/results/ledger.hpp"
 
 namespace trammel::simulate {
@@ -37,12 +39,6 @@ class ContactAudit {
   void archive(Archive& a, std::size_t contacts);
 
  private:
-  // The worst violation of one kind that counts, relative to the forces that act on its contact at that instant.
-  struct Worst {
-    int contact = -1;
-    double t = 0, force = 0, relative = 0;
-    void archive(Archive& a, const std::string& name);
-  };
   // What the force of a contact has beyond its law; not positive where it obeys.
   struct Excess {
     double pull = 0, beyond_cone = 0, along_slip = 0;  // [N] pulls, exceeds its cone, pushes along its slip
@@ -56,17 +52,15 @@ class ContactAudit {
   };
   static Excess excess(model::AssembledSystem& system, int contact, double N, const model::Tangential& T,
                        const Scale& scale);
-  void raise_worst(int contact, double t, const Excess& excess, const ActsOn& acts, const Scale& scale);
+  void raise_worst(int contact, double t, const Excess& excess, const ActsOn& acts, const ContactScale& scale);
   void look_at_forces(model::AssembledSystem& system, const State& state, const std::vector<int>& closed,
                       const Vec& lambda, const ContactScale& scale);
   void look_at_groups(model::AssembledSystem& system, double t, const Vec& lambda, const ContactScale& scale);
 
-  void raise(Worst& worst, int contact, double t, double amount, double scale);
-  void take_force(int contact, double force);
-  bool counts(const Worst& worst) const;
+  // In an island. `acts` [N]: the forces beside which it has to be more than round-off.
+  void raise(Violation kind, std::size_t island, const WorstForces::Worst& found, double acts);
 
-  Worst pull_, beyond_cone_, along_slip_, overloaded_, unbalanced_;
-  std::map<int, double> largest_;  // [N] by contact: the largest force that acted on it
+  WorstForces worst_;
   std::map<int, Span> indeterminate_;
 };
 

@@ -167,6 +167,29 @@ TEST(ContactAudit, DoesNotTellWhatIsLeftOfALoadThatFadedAway) {
       }
 }
 
+// A wall beside it, which the block only touches, has never had more than what is left.
+TEST(ContactAudit, DoesNotTellWhatIsLeftOnAContactThatNeverCarried) {
+  for (const double width : {0.02, 0.029, 0.04}) {
+    const std::string mu = R"({"type": "coulomb", "static": 0.4, "kinetic": 0.4})";
+    const auto fading = [width](double force) { return fmt::format("={}*exp(-((t-0.553)/{})^2)", force, width); };
+    const Finished run = run_text(fmt::format(
+        R"({{"trammel": 1, "space": "planar", "gravity": [0, 0],
+  "bodies": {{"block": {{"type": "rigid_body", "mass": 1, "inertia": 0.1, "position": [0, 0.2],
+             "markers": {{"left": [-0.3, -0.2], "right": [0.3, -0.2], "side": [-0.3, 0.05], "hand": [0.1, 0.1]}}}}}},
+  "forces": {{"load": {{"type": "load", "on": "block.hand", "force": {{"x": "{}", "y": "{}"}}}}}},
+  "contacts": {{"left": {{"type": "constraint_method", "restitution": 0, "friction": {},
+                        "between": ["block.left", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}},
+               "right": {{"type": "constraint_method", "restitution": 0, "friction": {},
+                         "between": ["block.right", {{"plane": {{"point": [0, 0], "normal": [0, 1]}}}}]}},
+               "wall": {{"type": "constraint_method", "restitution": 0, "friction": {},
+                        "between": ["block.side", {{"plane": {{"point": [-0.3, 0], "normal": [1, 0]}}}}]}}}},
+  "simulate": {{"until": 1}}, "record": {{"every": 0.02, "observe": {{"x": "block.com.x"}}}}}})",
+        fading(0.3), fading(-1), mu, mu, mu));
+    ASSERT_TRUE(run.done()) << run.report.reason;
+    EXPECT_TRUE(run.result["warnings"].empty()) << width << run.result["warnings"].dump();
+  }
+}
+
 // A block on two feet of 5 N, which can hold 1 N and 3 N; springs of equal stiffness would hold 2 N each. Where the
 // push is no more than both can, nothing is reported; where it is, by how little.
 TEST(ContactAudit, ReportsByHowLittleFeetCannotHold) {
