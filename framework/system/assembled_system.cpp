@@ -208,6 +208,7 @@ void AssembledSystem::accelerate(Stabilisation s, Vec& a, Vec& lambda) {
   constexpr auto store = FactorsAtPoint::at_point;
   p.evaluate_rows();
   const bool stabilised = s.alpha != 0 || s.beta != 0;
+  p.stabilised_by = std::max(p.stabilised_by, s.beta);
   if (stabilised) p.right_rows = p.rows.gamma() - 2 * s.alpha * p.rows.g_dot() - s.beta * s.beta * p.rows.g();
   // Always start from bearings without load, so that the result at a point does not depend on earlier calls.
   p.rows.unload_bearings();
@@ -222,6 +223,10 @@ void AssembledSystem::accelerate(Stabilisation s, Vec& a, Vec& lambda) {
     if (tries == most_loads) p.friction.fail_without_loads();
   }
   if (!p.resting.none()) p.resting.add_to(a, lambda);
+}
+
+double AssembledSystem::stabilised_by() const {
+  return parts_->stabilised_by;
 }
 
 void AssembledSystem::factorise(Blend blend, const Vec& a, const Vec& lambda, Factors which) {

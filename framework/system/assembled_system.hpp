@@ -132,6 +132,8 @@ class AssembledSystem final : public System, public HasRigidMotions {
   // `jump` is dv for a unit impulse along directions[i], and delassus(i, j) the change of the rate of directions[i] by
   // a unit impulse along directions[j].
   void impulse_response(const std::vector<ContactDirection>& directions, Mat& jump, Mat& delassus);
+  // [1/s] The largest beta of `accelerate` so far: beta^2 times the round-off of g is in its accelerations and forces.
+  double stabilised_by() const;
   // True if rows were redundant at the last `accelerate`: lambda is not unique.
   bool redundant() const;
   // Signs of the determinant of the equations for the forces at the last `accelerate`, by groups of rows that act on

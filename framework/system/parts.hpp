@@ -36,6 +36,7 @@ struct AssembledSystem::Parts {
   long long iterated_at = -1;  // the point of the last Newton iteration
   Balance power;
   Vec right, right_rows;
+  double stabilised_by = 0;
 };
 
 }  // namespace trammel::model

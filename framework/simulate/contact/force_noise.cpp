@@ -4,6 +4,15 @@
 #include <cmath>
 
 namespace trammel::simulate {
+namespace {
+
+// [m/s^2] What the rounding of places becomes where rows are stabilised.
+double shaking(const model::AssembledSystem& system, const Scale& scale) {
+  const double beta = system.stabilised_by();
+  return beta * beta * scale.resolution();
+}
+
+}  // namespace
 
 Judged judge_forces(model::AssembledSystem& system, const std::vector<model::ContactDirection>& directions,
                     const Vec& F, const ContactScale& scale) {
@@ -14,7 +23,7 @@ Judged judge_forces(model::AssembledSystem& system, const std::vector<model::Con
     if (!(D(i, i) > 0)) continue;  // nothing can move along it
     judged.scale[i] = D.row(i).cwiseAbs().dot(F.cwiseAbs()) / D(i, i);
     const Scale of_contact = scale.of(directions[std::size_t(i)].contact);
-    judged.noise[i] = of_contact.no_acceleration() / D(i, i);
+    judged.noise[i] = std::max(of_contact.no_acceleration(), shaking(system, of_contact)) / D(i, i);
     judged.speed[i] = std::sqrt(D(i, i) * judged.scale[i] * of_contact.length());
   }
   return judged;
@@ -26,7 +35,8 @@ double friction_noise(model::AssembledSystem& system, const ContactScale& scale,
   Mat jump, delassus;
   system.impulse_response(along, jump, delassus);
   const double least = delassus.diagonal().minCoeff();
-  return least > 0 ? scale.of(contact).no_acceleration() / least : 0;
+  const Scale own = scale.of(contact);
+  return least > 0 ? std::max(own.no_acceleration(), shaking(system, own)) / least : 0;
 }
 
 double force_noise(model::AssembledSystem& system, const ContactScale& scale,
@@ -34,10 +44,14 @@ double force_noise(model::AssembledSystem& system, const ContactScale& scale,
   Mat jump, delassus;
   system.impulse_response(directions, jump, delassus);
   const double most = delassus.cwiseAbs().rowwise().sum().maxCoeff();
-  double nothing = 0;
-  for (const model::ContactDirection& d : directions)
-    nothing = std::max(nothing, scale.of(d.contact).no_acceleration());
-  return most > 0 ? nothing / most : 0;
+  double nothing = 0, shaken = 0;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const Scale own = scale.of(directions[i].contact);
+    nothing = std::max(nothing, own.no_acceleration());
+    const double D = delassus(Eigen::Index(i), Eigen::Index(i));
+    if (D > 0) shaken = std::max(shaken, shaking(system, own) / D);
+  }
+  return most > 0 ? std::max(nothing / most, shaken) : 0;
 }
 
 }  // namespace trammel::simulate
