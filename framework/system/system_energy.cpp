@@ -105,7 +105,6 @@ class AssembledSystem::PowerByCause {
   // Rows of joints and bodies supply lambda . g_t; their power on velocities that violate them is an error of the
   // method.
   void add_rows(const Vec& lambda, int held) {
-    p_.evaluate_rows();
     Vec& reaction = p_.right;
     reaction.setZero(at_.v.size());
     p_.rows.add_reaction(1, lambda, reaction);
@@ -170,6 +169,7 @@ class AssembledSystem::PowerByCause {
 
 const AssembledSystem::Balance& AssembledSystem::balance(const Vec& lambda) {
   Parts& p = *parts_;
+  if (sizes().nc > 0) p.evaluate_rows();  // loads of joints depend on it
   PowerByCause power(p, p.power);
   power.add_bodies();
   power.add_forces();

@@ -135,5 +135,52 @@ TEST(LedgerOfFriction, GivesWhatASlipLosesBetweenItsTurns) {
   EXPECT_NEAR(lost, 5 * way, 0.02 * 5 * way);  // a tolerance of 1e-2
 }
 
+// A box between two slides whose guides rub: what the contacts share changes the loads of the guides. By trapezoids of
+// the records.
+TEST(LedgerOfFriction, GivesWhatJointsTakeBesideContactsThatShareForces) {
+  const auto touches = [](const char* corner, const char* slide, int normal) {
+    return fmt::format(R"({{"type": "constraint_method", "restitution": 0, "between": ["b.{}",
+                           {{"plane": {{"point": [0, 0], "normal": [{}, 0], "on": "{}.f"}}}}],
+                           "friction": {{"type": "coulomb", "static": 0.6, "kinetic": 0.6}}}})",
+                       corner, normal, slide);
+  };
+  const auto guide = [](double x, const char* slide, double length) {
+    return fmt::format(R"({{"type": "prismatic", "between": [{{"point": [{}, 0.18]}}, "{}.com"], "axis": [1, 0],
+                           "length": {}, "friction": {{"type": "coulomb", "static": 0.08, "kinetic": 0.08}}}})",
+                       x, slide, length);
+  };
+  const Finished run = run_text(fmt::format(
+      R"({{"trammel": 1, "space": "planar", "gravity": [0, -9.81],
+  "bodies": {{
+    "b": {{"type": "rigid_body", "mass": 1.4, "inertia": 0.033, "position": [0, 0.18],
+          "markers": {{"l": [-0.2, -0.18], "tl": [-0.2, 0.18], "r": [0.2, -0.18], "tr": [0.2, 0.18], "hand": [0.02, 0.18]}}}},
+    "d": {{"type": "rigid_body", "mass": 0.5, "inertia": 0.05, "position": [-0.2, 0.18],
+          "markers": {{"f": [0, 0], "k": [0.02, 0.14]}}}},
+    "e": {{"type": "rigid_body", "mass": 1.3, "inertia": 0.13, "position": [0.2, 0.18],
+          "markers": {{"f": [0, 0], "k": [0.13, -0.18]}}}}}},
+  "joints": {{"gd": {}, "ge": {}}},
+  "contacts": {{"pl": {}, "ptl": {}, "qr": {}, "qtr": {}}},
+  "forces": {{"k": {{"type": "load", "on": "d.k", "force": {{"x": 51}}}},
+             "k2": {{"type": "load", "on": "e.k", "force": {{"x": "=-51+19.5*t"}}}},
+             "h": {{"type": "load", "on": "b.hand", "force": {{"x": "=-6.1*t", "y": "=-23.2*t"}}}}}},
+  "simulate": {{"until": 1.1}},
+  "record": {{"every": 0.005, "observe": {{"gd": "joints.gd.friction", "ge": "joints.ge.friction",
+                                         "v_d": "joints.gd.slip", "v_e": "joints.ge.slip"}}}}}})",
+      guide(-0.2, "d", 0.18), guide(0.2, "e", 0.22), touches("l", "d", 1), touches("tl", "d", 1), touches("r", "e", -1),
+      touches("tr", "e", -1)));
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  const auto& t = run.series.at("t");
+  const auto power = [&](std::size_t i) {
+    return std::abs(run.series.at("gd")[i] * run.series.at("v_d")[i]) +
+           std::abs(run.series.at("ge")[i] * run.series.at("v_e")[i]);
+  };
+  double taken = 0;
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    taken += (power(i - 1) + power(i)) / 2 * (t[i] - t[i - 1]);
+    EXPECT_NEAR(run.series.at("energy_dissipated")[i], taken, 2e-4) << t[i];
+  }
+  EXPECT_GT(taken, 0.1);
+}
+
 }  // namespace
 }  // namespace trammel::test
