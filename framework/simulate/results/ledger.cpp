@@ -60,6 +60,7 @@ void Ledger::restart(const State& state) {
 
 void Ledger::step(const State& now, const State& next) {
   step_begin_ = totals(), step_ = next.t - now.t;
+  powers_.clear();
   end_ = balance(next.t, next.q, next.v, next.lambda);
   g_dot_end_ = system_.g_dot();
   // Work of rows at the level of round-off is not worth an evaluation.
@@ -104,19 +105,19 @@ void Ledger::integrate_by_middle(const State& now, const State& next) {
   const double h = next.t - now.t;
   between_.at(now, next, 0.5, inside_);
   evaluate_inside(now, next, 0.5);
-  add(h / 6, now_), add(4 * h / 6, middle_), add(h / 6, end_);
+  add_at(0, h / 6, now_), add_at(0.5, 4 * h / 6, middle_), add_at(1, h / 6, end_);
 }
 
 // Exact for polynomials of degree 7.
 void Ledger::integrate_by_dense_output(const State& now, const State& next) {
   const double h = next.t - now.t, apart = std::sqrt(21) / 14;
-  add(h / 20, now_), add(h / 20, end_);
+  add_at(0, h / 20, now_), add_at(1, h / 20, end_);
   for (const auto& [theta, weight] :
        {std::pair(0.5 - apart, 49.0 / 180), {0.5, 16.0 / 45}, {0.5 + apart, 49.0 / 180}}) {
     dense_->interpolate(system_, now, next, theta, inside_);
     if (!inside_.q.allFinite() || !inside_.v.allFinite()) between_.at(now, next, theta, inside_);
     evaluate_inside(now, next, theta);
-    add(weight * h, middle_);
+    add_at(theta, weight * h, middle_);
   }
 }
 
@@ -157,18 +158,27 @@ void Ledger::add(double duration, const Balance& power) {
   friction_ += duration * power.friction;
 }
 
+void Ledger::add_at(double theta, double duration, const Balance& power) {
+  add(duration, power);
+  powers_.push_back({theta, supply(power), dissipation(power)});
+}
+
+// Gauss's rule with three points, exact for the polynomial through up to five powers.
 Ledger::Totals Ledger::totals_inside(double theta) const {
   const Totals end = totals();
-  const double share = theta * theta * (3 - 2 * theta);  // Hermite's cubics
-  const double at_begin = theta * (1 - theta) * (1 - theta) * step_, at_end = theta * theta * (theta - 1) * step_;
-  const auto between = [&](double from, double to, double power_begin, double power_end) {
-    if (from == to) return to;
-    if (between_.swings()) return from + theta * (to - from);
-    return from + share * (to - from) + at_begin * power_begin + at_end * power_end;
-  };
-  // end_ has the powers at the step's begin since the last swap.
-  return {between(step_begin_.supplied, end.supplied, supply(end_), supply(now_)),
-          between(step_begin_.dissipated, end.dissipated, dissipation(end_), dissipation(now_))};
+  if (powers_.empty() || between_.swings())
+    return {step_begin_.supplied + theta * (end.supplied - step_begin_.supplied),
+            step_begin_.dissipated + theta * (end.dissipated - step_begin_.dissipated)};
+  Totals inside = step_begin_;
+  const double apart = std::sqrt(0.15);
+  for (const auto& [place, weight] : {std::pair(0.5 - apart, 5.0 / 18), {0.5, 4.0 / 9}, {0.5 + apart, 5.0 / 18}})
+    for (const PowersAt& each : powers_) {
+      double share = weight * theta * step_;
+      for (const PowersAt& other : powers_)
+        if (other.theta != each.theta) share *= (theta * place - other.theta) / (each.theta - other.theta);
+      inside.supplied += share * each.supplied, inside.dissipated += share * each.dissipated;
+    }
+  return inside;
 }
 
 double Ledger::impact_total() const {

@@ -38,8 +38,8 @@ class Ledger {
     double supplied = 0, dissipated = 0;  // [J] since the start
   };
   Totals totals() const { return {supplied(), dissipated()}; }
-  // At t + theta h of the last step: by the cubic through totals and powers at its ends, by a line if steps are longer
-  // than oscillations.
+  // At t + theta h of the last step: by the polynomial through the powers with which it was integrated, by a line if
+  // steps are longer than oscillations.
   Totals totals_inside(double theta) const;
 
   double energy_start() const { return energy_start_; }
@@ -59,6 +59,9 @@ class Ledger {
   void archive(Archive& a);
 
  private:
+  struct PowersAt {
+    double theta = 0, supplied = 0, dissipated = 0;  // [1], [W]
+  };
   const model::AssembledSystem::Balance& balance(double t, const Vec& q, const Vec& v, const Vec& lambda);
   // Powers at the ends: now_, end_.
   void integrate_by_middle(const State& now, const State& next);
@@ -68,6 +71,7 @@ class Ledger {
   double off_rows(const Vec& lambda, double theta);
   double kinetic(const Vec& v);
   void add(double duration, const model::AssembledSystem::Balance& power);
+  void add_at(double theta, double duration, const model::AssembledSystem::Balance& power);
 
   model::AssembledSystem& system_;
   BetweenStates between_;
@@ -78,9 +82,10 @@ class Ledger {
   double refinements_ = 0;   // [J]
   Vec friction_;
   std::vector<double> impacts_;
-  Totals step_begin_;      // before the last step, of length step_
-  double step_ = 0;        // [s]
-  Vec g_dot_, g_dot_end_;  // at `now` and at the step's end
+  Totals step_begin_;             // before the last step, of length step_
+  std::vector<PowersAt> powers_;  // in the last step; empty if nothing was evaluated in it
+  double step_ = 0;               // [s]
+  Vec g_dot_, g_dot_end_;         // at `now` and at the step's end
   State inside_;
   Vec a_, lambda_, momentum_;
 };
