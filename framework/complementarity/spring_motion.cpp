@@ -13,7 +13,7 @@ namespace {
 // How much more than springs bodies yield to what is missed of the resultants: each round leaves the inverse of it.
 // With 1e5 contacts near their bounds miss more than `lost_balance`, whatever the number of rounds.
 constexpr double yields_more = 1e6;
-constexpr int most_rounds_of_yielding = 8;
+constexpr int most_rounds_of_yielding = 8, most_rounds_of_modes = 20;
 // Of the resultants: more is a loss of balance, less is what the rounds leave. The loads exceed it within an instant.
 constexpr double lost_balance = 1e-8, no_loss = 1e-12;
 
@@ -84,6 +84,96 @@ double violated(const std::vector<SharingContact>& contacts, const Vec& F, const
   return most;
 }
 
+SpringMotion motion_of(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda, const Vec& F,
+                       const Vec& moved) {
+  SpringMotion motion{F, {}, (lambda - E * F).norm(), violated(contacts, F, moved)};
+  for (const SharingContact& c : contacts)
+    motion.push.push_back(c.normal >= 0 ? std::optional(push_of(F[c.normal], moved[c.normal])) : std::nullopt);
+  return motion;
+}
+
+struct SpringMode {
+  bool presses = false;
+  Vec ratio;  // friction to normal force where it slips; empty: sticks
+};
+
+std::vector<SpringMode> modes_shown_by(const NearbySolution& at, const std::vector<SharingContact>& contacts) {
+  std::vector<SpringMode> modes;
+  for (const SharingContact& c : contacts) {
+    SpringMode& mode = modes.emplace_back();
+    mode.presses = c.normal < 0 || at.F[c.normal] > 0;
+    const Vec slip = -at.a(c.tangents);
+    if (!slip.isZero(0)) mode.ratio = c.coefficient * slip.normalized();
+  }
+  return modes;
+}
+
+struct ForcesAndMotion {
+  Vec F, moved;  // moved: p + E_n^T dy, E_t^T dy
+};
+
+// In these modes the conditions are linear. The friction of contacts that stick is the nearest to F where it is not
+// unique.
+ForcesAndMotion solve_in(const std::vector<SpringMode>& modes, const std::vector<SharingContact>& contacts,
+                         const Mat& E, const Vec& lambda, const Vec& near) {
+  ForcesAndMotion found{Vec::Zero(E.cols()), {}};
+  Mat by_motion = Mat::Zero(E.cols(), E.rows());  // dF/dy
+  std::vector<Eigen::Index> sticking;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const SharingContact& c = contacts[i];
+    if (!modes[i].presses) continue;
+    const double N = c.normal >= 0 ? *c.push : c.given;
+    if (c.normal >= 0) found.F[c.normal] = N, by_motion.row(c.normal) = E.col(c.normal).transpose();
+    const Vec& ratio = modes[i].ratio;
+    if (ratio.size() == 0) sticking.insert(sticking.end(), c.tangents.begin(), c.tangents.end());
+    if (ratio.size() > 0) found.F(c.tangents) = N * ratio;
+    if (ratio.size() > 0 && c.normal >= 0) by_motion(c.tangents, Eigen::all) = ratio * E.col(c.normal).transpose();
+  }
+  found.F(sticking) = near(sticking);
+  const Eigen::Index rows = E.rows(), held = Eigen::Index(sticking.size());
+  Mat A = Mat::Zero(rows + held, rows + held);
+  A << E * by_motion, E(Eigen::all, sticking), E(Eigen::all, sticking).transpose(), Mat::Zero(held, held);
+  Vec b = Vec::Zero(rows + held);
+  b.head(rows) = lambda - E * found.F;
+  const Vec x = A.completeOrthogonalDecomposition().solve(b);
+  found.F += by_motion * x.head(rows);
+  found.F(sticking) += x.tail(held);
+  found.moved = E.transpose() * x.head(rows);
+  for (const SharingContact& c : contacts)
+    if (c.normal >= 0) found.moved[c.normal] += *c.push;
+  return found;
+}
+
+// Contacts that do not obey change their modes. True: some have.
+bool change_modes(std::vector<SpringMode>& modes, const std::vector<SharingContact>& contacts,
+                  const ForcesAndMotion& found) {
+  bool changed = false;
+  const double least = no_loss * found.F.norm();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const SharingContact& c = contacts[i];
+    const double N = c.normal >= 0 ? found.F[c.normal] : c.given, p = c.normal >= 0 ? found.moved[c.normal] : N;
+    if (modes[i].presses != (p > 0) && std::abs(p) > least) modes[i].presses = p > 0, changed = true;
+    if (c.tangents.empty() || !modes[i].presses) continue;
+    const Vec T = found.F(c.tangents);
+    Vec& ratio = modes[i].ratio;
+    if (ratio.size() > 0 && ratio.dot(Vec(found.moved(c.tangents))) < 0)
+      ratio.resize(0), changed = true;
+    else if (ratio.size() == 0 && T.norm() > c.coefficient * std::max(0.0, N) + least)
+      ratio = c.coefficient * T.normalized(), changed = true;
+  }
+  return changed;
+}
+
+// The solution near `at`, which is known up to the errors beside forces that are `yields_more` times as large.
+SpringMotion without_yielding(const NearbySolution& at, const std::vector<SharingContact>& contacts, const Mat& E,
+                              const Vec& lambda) {
+  std::vector<SpringMode> modes = modes_shown_by(at, contacts);
+  ForcesAndMotion found = solve_in(modes, contacts, E, lambda, at.F);
+  for (int round = 0; round < most_rounds_of_modes && change_modes(modes, contacts, found); ++round)
+    found = solve_in(modes, contacts, E, lambda, at.F);
+  return motion_of(contacts, E, lambda, found.F, found.moved);
+}
+
 // The solution near `nearby`, if it is known.
 std::optional<SpringMotion> follow_near(const std::vector<SharingContact>& contacts, const Mat& E, const Vec& lambda,
                                         NearbySolution nearby) {
@@ -100,6 +190,7 @@ std::optional<SpringMotion> follow_near(const std::vector<SharingContact>& conta
   const std::vector<double> nothing(points.size(), 0);
   std::vector<double> violation;
   std::optional<SpringMotion> best;
+  NearbySolution at;
   for (int round = 0; round < most_rounds_of_yielding; ++round) {
     const Vec b = -s * E.transpose() * r - p;
     if (solve_contacts(points, A, b, F, w, nothing, violation, {nearby, {}}, search).outcome != LcpOutcome::solved)
@@ -108,13 +199,14 @@ std::optional<SpringMotion> follow_near(const std::vector<SharingContact>& conta
     const Vec missed = lambda - E * F;
     if (best && !(missed.norm() < best->missed)) break;
     const Vec moved = p + s * E.transpose() * (r - E * F);
-    best = SpringMotion{F, {}, missed.norm(), violated(contacts, F, moved)};
-    for (const SharingContact& c : contacts)
-      best->push.push_back(c.normal >= 0 ? std::optional(push_of(F[c.normal], moved[c.normal])) : std::nullopt);
+    best = motion_of(contacts, E, lambda, F, moved);
+    at = {F, w};
     if (best->missed <= no_loss * lambda.norm()) break;
     r += missed;
   }
-  return best;
+  if (!best->carries(lambda) || best->violated <= no_loss * best->F.norm()) return best;
+  const SpringMotion exact = without_yielding(at, contacts, E, lambda);
+  return exact.missed <= no_loss * lambda.norm() && exact.violated < best->violated ? exact : best;
 }
 
 }  // namespace

@@ -137,5 +137,64 @@ TEST(SpringMotion, IsNoneWhereFrictionHoldsTheForcesThatSpringsHave) {
   }
 }
 
+// Two boxes in a channel, each wedged in, of which the left one pushes the right one with its side. Columns: N and T of
+// floor left and right, ceiling left and right, for each; the upper and the lower contact between them. Rows: force
+// along the channel, force up and moment of each box.
+struct TwoBoxes {
+  static constexpr double b = 0.4, weight = 15;  // half of the channel's height [m], [N]
+  std::vector<SharingContact> contacts;
+  Mat E = Mat::Zero(6, 20);
+  explicit TwoBoxes(std::mt19937& random) {
+    const double mu = between(random, 0.6, 0.9), mu_between = between(random, 0.1, 0.4);
+    double a[2];
+    for (const int box : {0, 1}) {
+      a[box] = mu * b * between(random, 0.4, 0.7);
+      const double N_ceiling = between(random, 15, 30), N_floor = N_ceiling + weight;
+      const double push[] = {-N_ceiling, N_floor, N_ceiling, -N_floor};
+      for (int i = 0; i < 4; ++i) {
+        const double x = i % 2 == 0 ? -a[box] : a[box], y = i < 2 ? -b : b, up = i < 2 ? 1 : -1;
+        E.col(8 * box + 2 * i).segment<3>(3 * box) << 0, up, x * up;
+        E.col(8 * box + 2 * i + 1).segment<3>(3 * box) << 1, 0, -y;
+        contacts.push_back({8 * box + 2 * i, {8 * box + 2 * i + 1}, mu});
+        contacts.back().push = push[i];
+      }
+    }
+    for (const int i : {0, 1}) {
+      const double y = i == 0 ? b / 2 : -b / 2;
+      E.col(16 + 2 * i) << -1, 0, y, 1, 0, -y;
+      E.col(17 + 2 * i) << 0, 1, a[0], 0, -1, a[1];
+      contacts.push_back({16 + 2 * i, {17 + 2 * i}, mu_between});
+      contacts.back().push = i == 0 ? -15 : 1.5;
+    }
+  }
+  std::optional<SpringMotion> pushed(double F) const {
+    const Vec lambda{{-F, weight, 0, 0, weight, 0}};
+    auto motion = follow_loads(contacts, E, lambda);
+    return motion && motion->carries(lambda) ? motion : std::nullopt;
+  }
+};
+
+// As where the instant of an event is sought.
+TEST(SpringMotion, FollowsAnyPartOfAStepThatItFollows) {
+  std::mt19937 random(6);
+  int steps = 0, both_press = 0;
+  for (int i = 0; i < 30; ++i) {
+    TwoBoxes boxes(random);
+    for (double F = 0; F < 300; F += 1) {
+      const auto whole = boxes.pushed(F + 1);
+      if (!whole) break;
+      for (const double part : {1e-9, 1e-7, 1e-5, 1e-3, 0.1, 1.0}) {
+        const auto motion = boxes.pushed(F + part);
+        ASSERT_TRUE(motion) << i << ", from " << F << ", " << part;
+        EXPECT_LE(motion->violated, 1e-8 * motion->F.norm()) << i << ", from " << F << ", " << part;
+        for (std::size_t k = 0; k < boxes.contacts.size(); ++k) boxes.contacts[k].push = motion->push[k];
+      }
+      ++steps, both_press += *boxes.contacts[8].push > 0 && *boxes.contacts[9].push > 0;
+    }
+  }
+  EXPECT_GT(steps, 500);
+  EXPECT_GT(both_press, 50);
+}
+
 }  // namespace
 }  // namespace trammel::complementarity
