@@ -171,6 +171,7 @@ StepControl::Proposal Simulator::propose(double stop) {
 void Simulator::complete(const Trial& trial, RecordSink& recorder) {
   accept(trial);
   record_inside(recorder);
+  if (location_.has_contacts()) modes_.follow_loads(now_);  // springs inside the step are those of its begin
   const bool event = trial.found == EventLocation::Found::event;
   if (event && !(location_.changes().only_leaning() && renew_bases()) &&
       !(location_.changes().only_unloaded() && renew_springs())) {
@@ -280,7 +281,6 @@ void Simulator::accept(const Trial& trial) {
   if (location_.has_contacts()) {
     scale_.take_contacts(system_);
     location_.accept(trial.h, next_);
-    modes_.follow_loads(next_);
   }
   if (corrections_.empty()) ledger_.step(now_, next_);  // last: it leaves the system at the middle of the step
   std::swap(now_, next_);

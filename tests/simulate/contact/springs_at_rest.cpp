@@ -437,5 +437,34 @@ TEST(BoxBetweenFloorAndCeiling, LetsGoAtItsBoundAfterItsLoadsHaveJumpedAtARecord
   }
 }
 
+// Springs of a box that is wedged in move while a push grows. Within a step they are those of its begin.
+TEST(BoxBetweenFloorAndCeiling, HasForcesInsideStepsThatGrowAsItsLoadsDo) {
+  const double a = 0.2, b = 0.5, mu = 0.6, m = 1;
+  json s =
+      scene_of({{"type", "rigid_body"},
+                {"mass", m},
+                {"inertia", m * (a * a + b * b) / 3},
+                {"position", {0, 0}},
+                {"markers", {{"bl", {-a, -b}}, {"br", {a, -b}}, {"tl", {-a, b}}, {"tr", {a, b}}, {"w", {a, 0.1}}}}});
+  for (const char* corner : {"bl", "br", "tl", "tr"}) {
+    const double y = corner[0] == 'b' ? -b : b;
+    s["contacts"][corner] = contact(fmt::format("b.{}", corner), {0, y}, {0, y < 0 ? 1 : -1}, mu);
+  }
+  s["contacts"]["w"] = contact("b.w", {a, 0}, {-1, 0}, 0.3);
+  s["forces"]["hand"] = {
+      {"type", "load"}, {"on", "b.com"}, {"force", {{"x", "=120*t"}, {"y", 0}}}, {"moment", "=-4*min(1,3*t)"}};
+  s["record"] = {{"every", 0.005},
+                 {"observe", {{"bl", "contacts.bl.force"}, {"br", "contacts.br.force"}, {"w", "contacts.w.force"}}}};
+  const Finished run = run_text(s.dump());
+  ASSERT_TRUE(run.done()) << run.report.reason;
+  const double grows = (120 + 12 / a) * 0.005;  // [N] between records, at most
+  for (const char* name : {"bl", "br", "w"}) {
+    const auto& N = run.series.at(name);
+    for (std::size_t i = 1; i < N.size(); ++i)
+      EXPECT_LE(std::abs(N[i] - N[i - 1]), grows) << name << ", " << run.series.at("t")[i] << " s";
+  }
+  EXPECT_GT(run.series.at("w").back(), 50);
+}
+
 }  // namespace
 }  // namespace trammel::test
