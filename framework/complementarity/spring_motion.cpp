@@ -227,6 +227,8 @@ std::optional<SpringMotion> follow_loads(const std::vector<SharingContact>& cont
   SpringMotion unmoved{still.F, {}, (lambda - E * still.F).norm()};
   for (const SharingContact& c : contacts) unmoved.push.push_back(c.push);
   if (unmoved.carries(lambda)) return unmoved;
+  const SpringMotion direct = without_yielding(still, contacts, E, lambda);
+  if (direct.missed <= no_loss * lambda.norm() && direct.violated <= no_loss * direct.F.norm()) return direct;
   const auto near = follow_near(contacts, E, lambda, still);
   if (near && near->carries(lambda) && near->violated <= lost_balance * near->F.norm()) return near;
   return follow_near(contacts, E, lambda, {});

@@ -13,9 +13,10 @@
 //
 // and r is raised by what E F misses of lambda until nothing is missed (method of multipliers). In the modes found,
 // which a change of load as small as round-off of s lambda may not show, the conditions are linear: they are solved
-// without yielding, and contacts that do not obey then change their modes. Where no dy exists, the contacts let go,
-// whatever other forces could still hold them. There may be several solutions: the one near the springs as they are is
-// sought first, with friction that holds them there if it can.
+// without yielding, and contacts that do not obey then change their modes. This is tried from the springs as they are,
+// first of all. Where no dy exists, the contacts let go, whatever other forces could still hold them. There may be
+// several solutions: the one near the springs as they are is sought first, with friction that holds them there if it
+// can.
 //
 // Where contacts come to rest out of sliding, their springs are pushed as they were while they slid: a slip that ends
 // moves no spring. Friction changes at once, then, from mu N to what holds beside these normal forces, if it can;
