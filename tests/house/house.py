@@ -59,8 +59,6 @@ def every_room_has_a_readme_of_one_screen(source, _):
     for folder in folders_with_code(source):
         if "problems" in folder.parts or folder.name in ("methods", "testing") and "include" in folder.parts:
             continue
-        if folder.parent.name == "include":
-            continue
         readme = folder / "README.md"
         if not readme.exists():
             yield f"{folder.relative_to(source)} has no README.md"
@@ -72,7 +70,7 @@ def readmes_name_every_source(source, _):
     # "spring_impact*" in a README names all sources whose names begin like that.
     for folder in folders_with_code(source):
         readme = folder / "README.md"
-        if folder.parts[-2:] == ("testing", "problems") or "include" in folder.parts or not readme.exists():
+        if folder.parts[-2:] == ("testing", "problems") or not readme.exists():
             continue
         text = readme.read_text()
         prefixes = tuple(re.findall(r"`(\w+)\*`", text))
