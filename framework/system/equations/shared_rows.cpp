@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <trammel/decompositions.hpp>
@@ -23,15 +24,23 @@ constexpr double round_off_of_joints = 1e-12;
 // Relative to the load of a joint: the fixed-point iteration ends at changes up to this. Each change is about mu times
 // the one before.
 constexpr double round_off_of_loads = 1e-13;
+// Of the forces that are shared: smaller changes that no longer decrease end it, too, and loads that differ by less are
+// the same ones again.
+constexpr double round_off_of_shares = 1e-9;
 constexpr int most_rounds = 100;
 constexpr int most_moves = 10;  // in a row: doublings of loads, or halvings of their change
 
 using LoadsOfJoints = std::map<int, double>;
 
-bool same_loads(const LoadsOfJoints& one, const LoadsOfJoints& other) {
-  return std::equal(one.begin(), one.end(), other.begin(), other.end(), [](const auto& a, const auto& b) {
-    return std::abs(a.second - b.second) <= round_off_of_loads * std::max(a.second, b.second);
-  });
+// Relative to the loads; the largest of all joints, infinite if there are none to compare with.
+double change(const LoadsOfJoints& from, const LoadsOfJoints& to) {
+  if (from.size() != to.size()) return std::numeric_limits<double>::infinity();
+  double largest = 0;
+  for (const auto& [joint, load] : to) {
+    const double before = from.at(joint), scale = std::max(load, before);
+    if (scale > 0) largest = std::max(largest, std::abs(load - before) / scale);
+  }
+  return largest;
 }
 
 LoadsOfJoints doubled(LoadsOfJoints loads) {
@@ -256,8 +265,8 @@ ContactLoads::Held SharedRowsAtPoint::solve(int group, const Vec& lambda, const 
 
 // The loads of joints at rest bound the forces that are shared, and follow from them: a fixed-point iteration. Larger
 // loads hold whatever smaller ones do. So it begins with loads that hold the group, as far as any do, and where those
-// that follow no longer hold it as well, it goes halfway back. If it comes to no end so, no loads are those of forces
-// that they bound; the last that followed count, under which the group is not held so.
+// that follow no longer hold it as well, it goes halfway back. If the same loads follow again, or it comes to no end
+// this way, no loads are those of forces that they bound; the last that followed count, which do not hold the group.
 const ContactLoads& SharedRowsAtPoint::solved(int group, const Vec& lambda) {
   using Held = ContactLoads::Held;
   follow();
@@ -266,17 +275,22 @@ const ContactLoads& SharedRowsAtPoint::solved(int group, const Vec& lambda) {
   at = {at_.number, at_.configuration, lambda, loads_as_springs(group, lambda)};
   Held best = Held::beyond_cones;
   LoadsOfJoints last, followed = at.of_joints;  // the last loads under which it was held best, those that followed
+  LoadsOfJoints too_small;                      // the last that followed and did not hold it as well
+  double least = std::numeric_limits<double>::infinity();  // change so far
   for (int round = 0, moves = 0; round < most_rounds && moves <= most_moves; ++round) {
     const Held held = solve(group, lambda, at.of_joints);
     if (at.of_joints.empty()) return contacts_.loads;
     if (held == Held::beyond_cones || held < best) {
+      if (moves == 0) too_small = at.of_joints;
       at.of_joints = last.empty() ? doubled(at.of_joints) : halfway(at.of_joints, last), ++moves;
       continue;
     }
     LoadsOfJoints next = loads_as_solved(group, lambda);
     last = std::exchange(at.of_joints, next);
-    if (same_loads(next, last)) return contacts_.loads;
-    best = held, followed = std::move(next), moves = 0;
+    const double changed = change(last, next);
+    if (changed <= round_off_of_loads || (changed <= round_off_of_shares && changed >= least)) return contacts_.loads;
+    best = held, followed = std::move(next), moves = 0, least = changed;
+    if (change(too_small, followed) <= round_off_of_shares) break;
   }
   at.of_joints = std::move(followed);
   (void)solve(group, lambda, at.of_joints);
