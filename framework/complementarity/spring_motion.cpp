@@ -16,6 +16,9 @@ constexpr double yields_more = 1e6;
 constexpr int most_rounds_of_yielding = 8, most_rounds_of_modes = 20;
 // Of the resultants: more is a loss of balance, less is what the rounds leave. The loads exceed it within an instant.
 constexpr double lost_balance = 1e-8, no_loss = 1e-12;
+// Of the forces: what the solution near the springs may be off their conditions. It moves springs beyond their bounds,
+// step after step, and so past the load at which they let go.
+constexpr double obeys = 1e-11;
 
 // Of all springs, of which there is one at least.
 bool push_is_known(const std::vector<SharingContact>& contacts) {
@@ -230,7 +233,7 @@ std::optional<SpringMotion> follow_loads(const std::vector<SharingContact>& cont
   const SpringMotion direct = without_yielding(still, contacts, E, lambda);
   if (direct.missed <= no_loss * lambda.norm() && direct.violated <= no_loss * direct.F.norm()) return direct;
   const auto near = follow_near(contacts, E, lambda, still);
-  if (near && near->carries(lambda) && near->violated <= lost_balance * near->F.norm()) return near;
+  if (near && near->carries(lambda) && near->violated <= obeys * near->F.norm()) return near;
   return follow_near(contacts, E, lambda, {});
 }
 

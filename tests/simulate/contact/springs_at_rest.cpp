@@ -437,6 +437,35 @@ TEST(BoxBetweenFloorAndCeiling, LetsGoAtItsBoundAfterItsLoadsHaveJumpedAtARecord
   }
 }
 
+// Wedged in by a moment and then pushed back, it presses with the other ends, as on the belt. One of them slips on its
+// springs before both do: what following leaves of the conditions must not add up there.
+TEST(BoxBetweenFloorAndCeiling, LetsGoAtItsBoundInWhateverOrderItsContactsAre) {
+  const double a = 0.28836759490330627, b = 0.6375313954222492, mu = 0.7833132703881849, m = 0.9813295818313434;
+  const double lets_go = 0.9 + mu * mu * m * 9.81 * b / a / 132.40088853645878;  // [s]
+  json s = scene_of({{"type", "rigid_body"},
+                     {"mass", m},
+                     {"inertia", m * (a * a + b * b) / 3},
+                     {"position", {0, 0}},
+                     {"velocity", {7.90141513680031, 0}},
+                     {"markers", {{"bl", {-a, -b}}, {"br", {a, -b}}, {"tl", {-a, b}}, {"tr", {a, b}}}}});
+  s["gravity"] = {0, -9.81};
+  const std::string push = "=-132.40088853645878*max(0,t-.9)+2.9454020453250056*max(0,min(1,(.45-t)*5))";
+  const std::string turn =
+      "=-11.163271364297433*(min(1,max(0,(.75-t)*4))*min(1,t*20)-.0975755*max(0,1-abs(t-.72)/.06))";
+  s["forces"]["hand"] = {{"type", "load"}, {"on", "b.com"}, {"force", {{"x", push}, {"y", 0}}}, {"moment", turn}};
+  s["simulate"]["until"] = 1.2, s["record"] = {{"every", 0.01}, {"observe", {{"x", "b.com.x"}}}};
+  std::vector<std::string> corners = {"bl", "br", "tl", "tr"};
+  do {
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const double y = corners[k][0] == 'b' ? -b : b;
+      s["contacts"][fmt::format("c{}", k)] = contact("b." + corners[k], {0, y}, {0, y < 0 ? 1 : -1}, mu);
+    }
+    const Finished run = run_text(s.dump());
+    ASSERT_TRUE(run.done() && !run.of_kind("slip").empty()) << run.report.reason;
+    EXPECT_NEAR(run.of_kind("slip").back().t, lets_go, 1e-6) << corners[0] << corners[1];
+  } while (std::next_permutation(corners.begin(), corners.end()));
+}
+
 // Springs of a box that is wedged in move while a push grows. Within a step they are those of its begin.
 TEST(BoxBetweenFloorAndCeiling, HasForcesInsideStepsThatGrowAsItsLoadsDo) {
   const double a = 0.2, b = 0.5, mu = 0.6, m = 1;
