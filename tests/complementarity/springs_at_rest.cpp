@@ -72,6 +72,38 @@ TEST(SpringsAtRest, HoldAWedgeThatLocksItself) {
   }
 }
 
+// A box on a floor between a wall and a slide with a given load on its guide: friction of the guide holds the slide
+// against what it presses, and the box is wedged in between slide, floor and wall.
+struct BoxBesideASlide {
+  std::vector<SharingContact> contacts;
+  Mat E = Mat::Zero(4, 11);
+  explicit BoxBesideASlide(double guide) {
+    const double w = 0.107, h = 0.111, axis_x = 0.9972, axis_y = 0.0751;
+    const double at[][5] = {
+        {-w, -h, 0, 1, 0}, {w, -h, 0, 1, 0}, {w, -0.03, -1, 0, 0}, {-w, -h, 1, 0, 1}, {-w, h, 1, 0, 1}};
+    for (const auto& [x, y, n_x, n_y, slides] : at) {
+      const Eigen::Index N = 2 * Eigen::Index(contacts.size());
+      E.col(N) << n_x, n_y, x * n_y - y * n_x, -slides * (n_x * axis_x + n_y * axis_y);
+      E.col(N + 1) << -n_y, n_x, x * n_x + y * n_y, -slides * (-n_y * axis_x + n_x * axis_y);
+      contacts.push_back({N, {N + 1}, n_y > 0 ? 0.5 : 0.6, 0});
+    }
+    E(3, 10) = 1;
+    contacts.push_back({-1, {10}, guide, 10});
+  }
+};
+
+TEST(SpringsAtRest, AreWedgedInAlikeWhateverTheBasisOfTheirRows) {
+  const BoxBesideASlide box(0.15);
+  const std::vector<SharingContact> without_guide(box.contacts.begin(), box.contacts.end() - 1);
+  std::mt19937 random(7);
+  for (int i = 0; i < 100; ++i) {
+    const Mat any = Mat::NullaryExpr(4, 4, [&] { return between(random, -1, 1); });
+    const Mat E = Eigen::HouseholderQR<Mat>(any).householderQ() * box.E;
+    EXPECT_TRUE(can_be_wedged_in(box.contacts, E)) << i;
+    EXPECT_FALSE(can_be_wedged_in(without_guide, E.leftCols(10))) << i;
+  }
+}
+
 // Feet in a row: their normal forces are the least ones with the same resultants, whatever the friction is.
 TEST(SpringsAtRest, PressWithoutBalanceAmongThemselves) {
   std::mt19937 random(4);

@@ -369,6 +369,14 @@ std::vector<std::optional<double>> push_of(const SpringEquations& p, const std::
   return push;
 }
 
+// A force along this column that may be of any size.
+void add_force_of_either_sign(Index column, std::vector<SharingContact>& forces, Mat& E) {
+  forces.emplace_back().normal = column;
+  forces.emplace_back().normal = E.cols();
+  E.conservativeResize(Eigen::NoChange, E.cols() + 1);
+  E.rightCols(1) = -E.col(column);
+}
+
 // Whether no other springs press than those of the set.
 bool press_only(const SpringSet& set, const SpringSet& press) {
   for (std::size_t i = 0; i < set.size(); ++i)
@@ -392,7 +400,10 @@ bool can_be_wedged_in(const std::vector<SharingContact>& contacts, const Mat& E)
   Mat balanced = Mat::Zero(E.rows() + 1, E.cols());
   balanced.topRows(E.rows()) = E;
   for (const SharingContact& c : contacts) {
-    if (c.normal < 0) continue;
+    if (c.normal < 0) {
+      for (const Index k : c.tangents) add_force_of_either_sign(k, free, balanced);
+      continue;
+    }
     free.push_back(c);
     balanced(E.rows(), c.normal) = 1;
   }

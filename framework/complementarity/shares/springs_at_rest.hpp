@@ -34,6 +34,7 @@
 namespace trammel::complementarity {
 
 // Whether forces inside the cones are in balance with each other, so that they may be of any size (a strut that locks).
+// Friction under given loads may be of any size as well: the loads of joints grow with the forces of contacts.
 bool can_be_wedged_in(const std::vector<SharingContact>& contacts, const Mat& E);
 
 // Fills F; false if no such forces have the resultants lambda. `carried`: the largest |E F - lambda| / |lambda|. Here
