@@ -13,6 +13,8 @@ namespace {
 
 // Of the shortest period of swings: the longest step.
 constexpr double part_of_period = 0.45;
+// Springs that hold under the present loads of joints change these loads, under which others may hold.
+constexpr int most_rounds_of_springs = 10;
 
 // The problem of the closed contacts in their present modes.
 ContactProblem present_problem(const ContactScene& scene, const State& state) {
@@ -42,6 +44,19 @@ bool springs_hold(model::AssembledSystem& system, const Vec& lambda) {
     const double round_off = round_off_of_loads * system.largest_load(group, lambda);
     if (!(system.spare_load_as_springs(group, lambda) >= -round_off)) return false;
   }
+  return true;
+}
+
+// Under the present loads of joints. False: there are none, or they are the present ones.
+bool find_other_springs(const ContactScene& scene, const State& state, const Vec& lambda) {
+  model::Modes modes = scene.system.modes();
+  for (int group = 0; group < int(modes.shared.size()); ++group) {
+    const double round_off = round_off_of_loads * scene.system.largest_load(group, lambda);
+    if (!take_springs(scene.system.find_springs(group, lambda, round_off), modes)) return false;
+  }
+  if (same_springs(modes.contacts, scene.system.modes().contacts)) return false;
+  scene.system.set_modes(modes);
+  scene.system.move_to(state.t, state.q, state.v);
   return true;
 }
 
@@ -79,20 +94,15 @@ bool renew_bases(const ContactScene& scene, State& state) {
 }
 
 bool renew_springs(const ContactScene& scene, const State& state) {
-  model::Modes modes = scene.system.modes();
-  if (std::any_of(modes.shared.begin(), modes.shared.end(), has_sliding)) return false;
-  Vec a, lambda;
-  scene.system.move_to(state.t, state.q, state.v);
-  scene.system.accelerate({}, a, lambda);
-  for (int group = 0; group < int(modes.shared.size()); ++group) {
-    const double round_off = round_off_of_loads * scene.system.largest_load(group, lambda);
-    if (!take_springs(scene.system.find_springs(group, lambda, round_off), modes)) return false;
-  }
-  if (same_springs(modes.contacts, scene.system.modes().contacts)) return false;
   const model::Modes before = scene.system.modes();
-  scene.system.set_modes(modes);
-  scene.system.move_to(state.t, state.q, state.v);
-  if (springs_hold(scene.system, lambda)) return true;
+  if (std::any_of(before.shared.begin(), before.shared.end(), has_sliding)) return false;
+  for (int round = 0; round < most_rounds_of_springs; ++round) {
+    Vec a, lambda;
+    scene.system.move_to(state.t, state.q, state.v);
+    scene.system.accelerate({}, a, lambda);
+    if (!find_other_springs(scene, state, lambda)) break;
+    if (springs_hold(scene.system, lambda)) return true;
+  }
   scene.system.set_modes(before);
   return false;
 }
