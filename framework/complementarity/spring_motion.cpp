@@ -200,7 +200,7 @@ std::optional<SpringMotion> follow_near(const std::vector<SharingContact>& conta
       return std::nullopt;
     if (near) nearby = {F, w};
     const Vec missed = lambda - E * F;
-    if (best && !(missed.norm() < best->missed)) break;
+    if (best && !(missed.norm() < 0.5 * best->missed)) break;
     const Vec moved = p + s * E.transpose() * (r - E * F);
     best = motion_of(contacts, E, lambda, F, moved);
     at = {F, w};
