@@ -18,7 +18,7 @@ constexpr int most_rounds_of_yielding = 8, most_rounds_of_modes = 20;
 constexpr double lost_balance = 1e-8, no_loss = 1e-12;
 // Of the forces: what the solution near the springs may be off their conditions. It moves springs beyond their bounds,
 // step after step, and so past the load at which they let go.
-constexpr double obeys = 1e-11;
+constexpr double obeys = 1e-9;
 
 // Of all springs, of which there is one at least.
 bool push_is_known(const std::vector<SharingContact>& contacts) {

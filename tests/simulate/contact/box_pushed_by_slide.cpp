@@ -75,17 +75,17 @@ TEST(ABoxPushedByASlide, MovesAlikeHoweverItsContactsAreNamed) {
 }
 
 // In some of them the friction of the guide follows from forces that are shared, until no load of the guide is that of
-// forces which it holds. In the last two that load jumps where springs end.
+// forces which it holds. In the last one that load jumps where springs end.
 TEST(ABoxPushedByASlide, SlipsAtOneTimeWhateverItsSizesAre) {
   std::mt19937 random(20261129);
   const auto between = [&random](double low, double high) { return low + (high - low) * random() / 4294967296.0; };
-  for (int k = 0; k < 45; ++k) {
+  for (int k = 0; k < 26; ++k) {
     PushedBox p{.width = between(0.05, 0.2), .height = between(0.1, 0.4), .box = between(0.5, 2)};
     p.slide = between(0.4, 1.5), p.floor = between(0.2, 0.6), p.face = between(0.2, 0.7);
     p.guide = between(0.05, 0.3), p.length = between(0.1, 0.4);
     p.at_x = -between(0, 0.3), p.at_y = between(-p.height, p.height), p.push = between(10, 25);
     p.lift = between(-4, 4), p.counter = between(0, 2), p.counter_y = between(-p.height, p.height);
-    if (k >= 10 && k != 25 && k != 44) continue;
+    if (k >= 10 && k != 25) continue;
     SCOPED_TRACE(k);
     const Finished first = p.run({0, 1, 2, 3});
     for (const std::vector<int>& order : {std::vector{2, 0, 3, 1}, {3, 2, 1, 0}}) expect_alike(first, p.run(order));
