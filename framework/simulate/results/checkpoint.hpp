@@ -15,7 +15,7 @@
 
 namespace trammel::simulate {
 
-inline constexpr int checkpoint_format = 7;
+inline constexpr int checkpoint_format = 8;
 
 // Writes values into a JSON object, or reads them back.
 class JsonArchive final : public Archive {
