@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -176,10 +175,6 @@ std::vector<std::string> ContactAudit::warnings(const model::Model& model, const
 }
 
 void ContactAudit::archive(Archive& a, std::size_t contacts) {
-  const auto known = [contacts](double i) {
-    if (!(i >= 0 && i < double(contacts))) throw std::out_of_range("contact");
-    return int(i);
-  };
   worst_.archive(a, contacts);
   Vec flat(Eigen::Index(3 * indeterminate_.size()));
   Eigen::Index k = 0;
@@ -189,7 +184,8 @@ void ContactAudit::archive(Archive& a, std::size_t contacts) {
   }
   a("indeterminate", flat);
   indeterminate_.clear();
-  for (k = 0; k + 2 < flat.size(); k += 3) indeterminate_[known(flat[k])] = {flat[k + 1], flat[k + 2]};
+  for (k = 0; k + 2 < flat.size(); k += 3)
+    indeterminate_[contact_number(flat[k], contacts)] = {flat[k + 1], flat[k + 2]};
 }
 
 }  // namespace trammel::simulate

@@ -12,6 +12,10 @@ double shaking(const model::AssembledSystem& system, const Scale& scale) {
   return beta * beta * scale.resolution();
 }
 
+double no_acceleration(const model::AssembledSystem& system, const Scale& scale) {
+  return std::max(scale.no_acceleration(), shaking(system, scale));
+}
+
 }  // namespace
 
 Judged judge_forces(model::AssembledSystem& system, const std::vector<model::ContactDirection>& directions,
@@ -23,7 +27,7 @@ Judged judge_forces(model::AssembledSystem& system, const std::vector<model::Con
     if (!(D(i, i) > 0)) continue;  // nothing can move along it
     judged.scale[i] = D.row(i).cwiseAbs().dot(F.cwiseAbs()) / D(i, i);
     const Scale of_contact = scale.of(directions[std::size_t(i)].contact);
-    judged.noise[i] = std::max(of_contact.no_acceleration(), shaking(system, of_contact)) / D(i, i);
+    judged.noise[i] = no_acceleration(system, of_contact) / D(i, i);
     judged.speed[i] = std::sqrt(D(i, i) * judged.scale[i] * of_contact.length());
   }
   return judged;
@@ -35,8 +39,7 @@ double friction_noise(model::AssembledSystem& system, const ContactScale& scale,
   Mat jump, delassus;
   system.impulse_response(along, jump, delassus);
   const double least = delassus.diagonal().minCoeff();
-  const Scale own = scale.of(contact);
-  return least > 0 ? std::max(own.no_acceleration(), shaking(system, own)) / least : 0;
+  return least > 0 ? no_acceleration(system, scale.of(contact)) / least : 0;
 }
 
 double force_noise(model::AssembledSystem& system, const ContactScale& scale,

@@ -11,17 +11,17 @@ namespace {
 
 constexpr const char* names[] = {"pull", "beyond_cone", "along_slip", "overloaded", "unbalanced"};
 
-// Of what was archived.
-int contact_number(double number, std::size_t contacts) {
-  if (!(number >= 0 && number < double(contacts))) throw std::out_of_range("contact");
-  return int(number);
-}
-std::size_t island_number(double number) {
-  if (!(number >= 0 && number < std::numeric_limits<int>::max())) throw std::out_of_range("island");
-  return std::size_t(number);
+std::size_t island_number(double archived) {
+  if (!(archived >= 0 && archived < std::numeric_limits<int>::max())) throw std::out_of_range("island");
+  return std::size_t(archived);
 }
 
 }  // namespace
+
+int contact_number(double archived, std::size_t contacts) {
+  if (!(archived >= 0 && archived < double(contacts))) throw std::out_of_range("contact");
+  return int(archived);
+}
 
 void WorstForces::take_force(std::size_t island, double force) {
   double& largest = largest_[island];

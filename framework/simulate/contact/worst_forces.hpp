@@ -14,6 +14,9 @@ namespace trammel::simulate {
 
 enum class Violation { pull, beyond_cone, along_slip, overloaded, unbalanced };  // contact_audit.hpp
 
+// An archived number of a contact; throws std::out_of_range if there is none.
+int contact_number(double archived, std::size_t contacts);
+
 class WorstForces {
  public:
   struct Worst {
